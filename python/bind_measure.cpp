@@ -231,15 +231,6 @@ std::vector<FieldErrors> fields_from(const py::sequence& names, const Doubles& v
   return fields;
 }
 
-py::dict system_to_dict(const ErrorSystem& s) {
-  return Record()("unknowns", s.unknowns)("m_matrix", s.m_matrix)("definite", s.definite)("singular", s.singular)(
-             "negative", s.negative)("merged", s.merged)("largest_over_median", s.largest_over_median)("condition",
-                                                                                                       s.condition)
-      .dict;
-}
-
-py::dict frame_to_dict(const FieldFrame& f) { return Record()("center", f.center)("half_size", f.half_size).dict; }
-
 FieldFrame frame_from(const py::handle& frame) {
   const auto f = frame.cast<py::tuple>();
   return {{f[0].cast<double>(), f[1].cast<double>()}, f[2].cast<double>()};
@@ -254,12 +245,12 @@ py::dict errors_to_dict(const ErrorReport& r) {
                       .dict);
   }
   for (const auto& values : r.local) local.append(to_python(values));
-  return Record()("vertices", r.vertices)("edges", r.edges)("triangles", r.triangles)(
-             "non_regular_edges", r.non_regular_edges)("negative_boundary_duals", r.negative_boundary_duals)(
-             "negative_star0", r.negative_star0)("not_well_centered", r.not_well_centered)(
-             "frame", frame_to_dict(r.frame))("poisson", system_to_dict(r.poisson))("flux", system_to_dict(r.flux))(
-             "fields", fields_to_dict(r.fields))("levels", levels)("orders", fields_to_dict(r.orders))("local", local)
-      .dict;
+  py::dict report = fields_of(view_of(r));
+  report["fields"] = fields_to_dict(r.fields);
+  report["levels"] = levels;
+  report["orders"] = fields_to_dict(r.orders);
+  report["local"] = local;
+  return report;
 }
 
 py::dict error_mesh(const PyMesh& self, const py::sequence& fields, const py::object& frame, int refine, bool condition,
@@ -281,10 +272,6 @@ py::dict error_mesh(const PyMesh& self, const py::sequence& fields, const py::ob
   return errors_to_dict(or_raise(std::move(report)));
 }
 
-py::dict frame_to_dict(const tets::FieldFrame& f) {
-  return Record()("center", std::array{f.center.x, f.center.y, f.center.z})("half_size", f.half_size).dict;
-}
-
 py::dict error_tets(const PyTetMesh& self, const py::sequence& fields, const py::object& frame, bool condition) {
   tets::MeasureErrorsOptions options;
   for (const auto& field : fields) options.fields.push_back(field.cast<std::string>());
@@ -295,12 +282,9 @@ py::dict error_tets(const PyTetMesh& self, const py::sequence& fields, const py:
   options.condition = condition;
   const auto loaded = self.loaded;
   const tets::ErrorReport r = or_raise(aside([&] { return tets::measure_errors(loaded->mesh, options); }));
-  return Record()("vertices", r.vertices)("edges", r.edges)("faces", r.faces)("tetrahedra", r.tetrahedra)(
-             "non_regular_faces", r.non_regular_faces)("negative_boundary_duals", r.negative_boundary_duals)(
-             "negative_star0", r.negative_star0)("not_well_centered", r.not_well_centered)(
-             "frame", frame_to_dict(r.frame))("poisson", system_to_dict(r.poisson))("flux", system_to_dict(r.flux))(
-             "fields", fields_to_dict(r.fields))
-      .dict;
+  py::dict report = fields_of(view_of(r));
+  report["fields"] = fields_to_dict(r.fields);
+  return report;
 }
 
 py::list fields_list(std::span<const ErrorField> fields) {
@@ -310,17 +294,10 @@ py::list fields_list(std::span<const ErrorField> fields) {
   return list;
 }
 
-py::dict norms_to_dict(const ErrorNorms& n) { return Record()("l2", n.l2)("max", n.max).dict; }
-
-py::dict diffusion_errors(const PyMesh& self, const py::tuple& given, int refinements) {
+py::object diffusion_errors(const PyMesh& self, const py::tuple& given, int refinements) {
   const auto mesh = self.read();
   const DiffusionProblem problem = problem_from(given);
-  const DiffusionErrors e = or_raise(aside([&] { return measure_diffusion_errors(*mesh, problem, refinements); }));
-  return Record()("vertex", norms_to_dict(e.vertex))("cell", norms_to_dict(e.cell))(
-             "reference", norms_to_dict(e.reference))("vertex_system", system_to_dict(e.vertex_system))(
-             "cell_system", system_to_dict(e.cell_system))("refinements", e.refinements)("least", e.least)("largest",
-                                                                                                           e.largest)
-      .dict;
+  return report_to_python(or_raise(aside([&] { return measure_diffusion_errors(*mesh, problem, refinements); })));
 }
 
 std::optional<FieldGroup> group_from(const py::object& group) {
@@ -338,8 +315,8 @@ void bind_errors(py::module_& m) {
   });
   m.def("tet_error_fields", [] { return fields_list(tets::error_fields()); });
   m.def("tet_measure_errors", error_tets);
-  m.def("tet_field_frame", [](const PyTetMesh& self) { return frame_to_dict(tets::field_frame(self.mesh())); });
-  m.def("field_frame", [](const PyMesh& self) { return frame_to_dict(field_frame(*self.read())); });
+  m.def("tet_field_frame", [](const PyTetMesh& self) { return report_to_python(tets::field_frame(self.mesh())); });
+  m.def("field_frame", [](const PyMesh& self) { return report_to_python(field_frame(*self.read())); });
   m.def("error_measures", [] {
     py::list list;
     for (const ErrorMeasure& measure : error_measures()) {

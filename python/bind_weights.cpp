@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "bind.hpp"
+#include "reports.hpp"
 #include "temper/detail/certificate_io.hpp"
 #include "temper/detail/connectivity.hpp"
 #include "temper/detail/lp.hpp"
@@ -34,11 +35,15 @@ py::list terms_to_list(const std::vector<Certificate::Term>& terms) {
   return list;
 }
 
+}  // namespace
+
 py::dict certificate_to_dict(const Certificate& certificate) {
   return Record()("margin", certificate.margin)("terms", terms_to_list(certificate.terms))(
              "constraints", name(certificate.constraints))
       .dict;
 }
+
+namespace {
 
 /// None without lemmas.
 py::object proof_to_python(const ConnectivityProof& proof) {
@@ -290,72 +295,26 @@ void bind_weights_of_tetrahedra(py::module_& m) {
 
 // --- necessity ----------------------------------------------------------------------------------------------------
 
-py::dict conflict_to_dict(const Mesh& mesh, const EdgeConflict& c) {
-  return Record()("edge", py::make_tuple(mesh.origin(c.edge).index, mesh.target(c.edge).index))("halfedge", c.edge)(
-             "near_u", c.near_u)("near_v", c.near_v)("a", c.a)("b", c.b)("sum", c.sum)("split_at", c.split_at)
-      .dict;
-}
-
 void bind_necessity(py::module_& m) {
   m.def("edge_conflict", [](const PyMesh& self, std::int64_t h, double up_to) -> py::object {
     const auto mesh = self.read();
     require_no_period(*mesh, "edge_conflict()");
     const auto conflict = edge_conflict(*mesh, halfedge_id(*mesh, h), up_to);
-    return conflict ? py::object(conflict_to_dict(*mesh, *conflict)) : py::none();
+    return conflict ? report_to_python(EdgeConflictReport{*mesh, *conflict}) : py::none();
   });
   m.def("edges_that_must_be_split", [](const PyMesh& self, double up_to) {
     const auto mesh = self.read();
     require_no_period(*mesh, "edges_that_must_be_split()");
     py::list list;
-    for (const EdgeConflict& c : edges_that_must_be_split(*mesh, up_to)) list.append(conflict_to_dict(*mesh, c));
+    for (const EdgeConflict& c : edges_that_must_be_split(*mesh, up_to))
+      list.append(report_to_python(EdgeConflictReport{*mesh, c}));
     return list;
   });
 }
 
 // --- explain ------------------------------------------------------------------------------------------------------
 
-py::object side_to_dict(const CrossingSide& side) {
-  return Record()("triangles", side.triangles)("from_", side.from)("to", side.to)("widest", side.widest)("angle_deg",
-                                                                                                         side.angle_deg)
-      .dict;
-}
-
-py::object crossing_to_dict(const std::optional<CrossingConflict>& c) {
-  if (!c) return py::none();
-  return Record()("p", c->p)("q", c->q)("length", c->length)("left", side_to_dict(c->left))("right",
-                                                                                            side_to_dict(c->right))
-      .dict;
-}
-
-py::object center_to_dict(const std::optional<FanCenter>& c) {
-  if (!c) return py::none();
-  return Record()("vertex", c->vertex)("on_boundary", c->on_boundary)("angle_deg", c->angle_deg)(
-             "shortest", c->shortest)("longest", c->longest)("shortest_length", c->shortest_length)("longest_length",
-                                                                                                    c->longest_length)
-      .dict;
-}
-
-py::dict cure_to_dict(const Mesh& mesh, const Cure& c) {
-  return Record()("action", name(c.action))("text", cure_text(mesh, c))("edge", c.edge)("vertex", c.vertex)(
-             "triangle", c.triangle)("at", c.at)("verified", c.verified)("conflict_only", c.conflict_only)(
-             "triangles", c.triangles)("ends_conflict", c.ends_conflict)("left_out", c.left_out)("margin", c.margin)(
-             "changed", c.changed)
-      .dict;
-}
-
-py::dict reason_to_dict(const Mesh& mesh, const Reason& r) {
-  py::list cures;
-  for (const Cure& cure : r.cures) cures.append(cure_to_dict(mesh, cure));
-  const py::object crossing = r.must_split ? py::object(conflict_to_dict(mesh, *r.must_split)) : py::none();
-  return Record()("kind", name(r.kind))("text", reason_text(mesh, r))("bad", r.bad)("conflict", r.conflict)(
-             "must_split", crossing)("certificate", certificate_to_dict(r.certificate))("margin", r.margin)(
-             "each", r.each)("checked", r.checked)("crossing", crossing_to_dict(r.crossing))(
-             "center", center_to_dict(r.center))("free", r.free)("least_margin", r.least_margin)("at", r.at)(
-             "cures_searched", r.cures_searched)("cures", cures)
-      .dict;
-}
-
-py::dict explain_mesh(const PyMesh& self, std::size_t cures, std::size_t whole, const py::object& progress) {
+py::object explain_mesh(const PyMesh& self, std::size_t cures, std::size_t whole, const py::object& progress) {
   const auto mesh = self.read();
   ExplainOptions options;
   options.cures = cures;
@@ -371,34 +330,14 @@ py::dict explain_mesh(const PyMesh& self, std::size_t cures, std::size_t whole, 
   auto result = aside([&] { return explain(*mesh, *clp_solver(), options); });
   visitor.raise();
   const Explanation why = or_raise(std::move(result));
-  py::list reasons;
-  for (const Reason& reason : why.reasons) reasons.append(reason_to_dict(*mesh, reason));
-  return Record()("triangles", why.triangles)("bad", why.bad)("verdict", name(why.verdict))("changed", why.changed)(
-             "margin", why.margin)("reasons", reasons)
-      .dict;
+  return report_to_python(ExplanationReport{*mesh, why});
 }
 
-py::dict explain_tetrahedra(const PyTetMesh& self, std::size_t whole) {
+py::object explain_tetrahedra(const PyTetMesh& self, std::size_t whole) {
   const auto loaded = self.loaded;
   const tets::ExplainOptions options = {.whole = whole};
   const tets::Explanation why = or_raise(aside([&] { return tets::explain(loaded->mesh, *clp_solver(), options); }));
-  py::list reasons;
-  for (const tets::Reason& reason : why.reasons) {
-    py::list faces;
-    for (const tets::FaceHeight& f : reason.faces) {
-      faces.append(Record()("vertices", f.vertices)("boundary", f.boundary)("h", f.h)("h_over_l", f.h_over_l)(
-                       "outside", f.outside)("crossed", f.crossed)
-                       .dict);
-    }
-    const Vec3 center = reason.orthocenter;
-    reasons.append(worst_to_record(reason)("orthocenter", std::array{center.x, center.y, center.z})("faces", faces)(
-                       "all_on_boundary", reason.all_on_boundary)("cure", tets::name(reason.cure))
-                       .dict);
-  }
-  return Record()("tetrahedra", why.quality.tetrahedra)("bad", why.bad)("verdict", name(why.verdict()))(
-             "all_on_boundary", why.all_on_boundary)(
-             "weights", why.weights ? py::object(weight_report_to_dict(*why.weights)) : py::none())("reasons", reasons)
-      .dict;
+  return report_to_python(tets::ExplanationReport{loaded->mesh, why});
 }
 
 }  // namespace

@@ -9,6 +9,9 @@ struct Maker {
   py::object operator()(std::int64_t value) const { return py::int_(value); }
   py::object operator()(const NumberedText& text) const { return py::str(text.text); }
   py::object operator()(const TextWithOptions& text) const { return py::str(spelled(text.text)); }
+  py::object operator()(const Certificate* proof) const {
+    return py::module_::import("temper._certificate").attr("Certificate").attr("_of")(certificate_to_dict(*proof));
+  }
   py::object operator()(const ReportView& report) const { return to_python(report); }
   template <class T>
   py::object operator()(std::span<const T> values) const {
@@ -27,10 +30,15 @@ struct Maker {
 
 }  // namespace
 
-py::object to_python(const ReportView& report) {
+py::dict fields_of(const ReportView& report) {
   py::dict fields;
   for (const ReportRow& row : report.table->rows)
     fields[py::str(row.key.data(), row.key.size())] = std::visit(Maker(), row.of(report.report.get()).is);
+  return fields;
+}
+
+py::object to_python(const ReportView& report) {
+  py::dict fields = fields_of(report);
   if (report.table->name.empty()) return fields;
   return py::module_::import("temper._records").attr("made")(to_python(report.table->name), fields);
 }

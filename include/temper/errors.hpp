@@ -28,6 +28,7 @@
 namespace temper {
 
 class Executor;
+struct ReportTable;
 
 /// The purpose of a field. An objective may be tuned on the chosen fields. The fields held back then show its true
 /// value.
@@ -54,6 +55,7 @@ struct FieldFrame {
   double half_size = 1;  ///< > 0 [length]
   friend bool operator==(const FieldFrame&, const FieldFrame&) = default;
 };
+[[nodiscard]] const ReportTable& table_of(const FieldFrame*);
 /// The frame of the bounding box of the vertices: its longer side goes from −1 to 1. On the sphere the radius counts,
 /// and along a period the domain.
 [[nodiscard]] FieldFrame field_frame(const Mesh& mesh);
@@ -75,6 +77,7 @@ struct ErrorNorms {
   double l2 = 0;
   double max = 0;
 };
+[[nodiscard]] const ReportTable& table_of(const ErrorNorms*);
 /// The errors of one field; also means over fields, ratios or orders.
 struct OperatorErrors {
   std::array<ErrorNorms, 3> star;  ///< ★0, ★1, ★2
@@ -99,6 +102,7 @@ struct ErrorSystem {
   double largest_over_median = 1;
   std::optional<double> condition = {};  ///< Spectral condition: a lower bound near the true value (power iterations)
 };
+[[nodiscard]] const ReportTable& table_of(const ErrorSystem*);
 
 /// One mesh of a refined family.
 struct ErrorLevel {
@@ -126,6 +130,7 @@ struct ErrorReport {
   /// order of DecComplex) and triangle (★2). Each is the error of the mean over the element.
   std::array<std::vector<double>, 3> local;
 };
+[[nodiscard]] const ReportTable& table_of(const ErrorReport*);
 
 /// Measures a mesh. The report does not depend on the executor. Errors: no triangles, unknown fields, a frame of zero
 /// size, too many refinements for the memory. Precondition: no erased triangles. O(n^1.5): two sparse factorizations.
@@ -144,6 +149,7 @@ struct DiffusionErrors {
   int refinements = 0;            ///< Refinements of the mesh for the reference
   double least = 0, largest = 0;  ///< Least and largest value of the reference at the vertices
 };
+[[nodiscard]] const ReportTable& table_of(const DiffusionErrors*);
 
 /// Solves a problem by the two schemes of this file, with the coefficients of with_coefficient(). The reference is a
 /// solution by linear finite elements on the mesh without weights, refined `refinements` times, each triangle into

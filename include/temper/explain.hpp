@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,7 @@ enum class ReasonKind {
   undecided  ///< Neither weights nor a certificate were found
 };
 [[nodiscard]] std::string_view name(ReasonKind kind);
+[[nodiscard]] std::span<const std::string_view> words_of(ReasonKind);
 
 /// One side of the edge of a conflict: the interval in which well-centered triangles let the dual cross the edge.
 struct CrossingSide {
@@ -43,6 +45,7 @@ struct CrossingSide {
   VertexId widest;          ///< Vertex of the largest angle of these triangles
   double angle_deg = 0;     ///< Largest angle of these triangles
 };
+[[nodiscard]] const ReportTable& table_of(const CrossingSide*);
 
 /// An edge whose two sides have disjoint intervals: left.to ≤ right.from or right.to ≤ left.from.
 struct CrossingConflict {
@@ -50,6 +53,7 @@ struct CrossingConflict {
   double length = 0;
   CrossingSide left, right;  ///< Left and right side of p → q
 };
+[[nodiscard]] const ReportTable& table_of(const CrossingConflict*);
 
 /// The common corner of the triangles of a fan.
 struct FanCenter {
@@ -59,6 +63,7 @@ struct FanCenter {
   VertexId shortest, longest;  ///< Other ends of the shortest and the longest edge of the fan at the vertex
   double shortest_length = 0, longest_length = 0;
 };
+[[nodiscard]] const ReportTable& table_of(const FanCenter*);
 
 /// A change that would cure a reason.
 struct Cure {
@@ -91,6 +96,7 @@ struct Cure {
   std::size_t changed = 0;  ///< For find_weights on the whole mesh: number of nonzero weights around the bad triangles
 };
 [[nodiscard]] std::string_view name(Cure::Action action);
+[[nodiscard]] std::span<const std::string_view> words_of(Cure::Action);
 
 struct Reason {
   ReasonKind kind = ReasonKind::undecided;
@@ -146,5 +152,13 @@ struct Explanation {
 [[nodiscard]] std::string reason_text(const Mesh& mesh, const Reason& reason, const InputNames* names = nullptr);
 /// A cure in words, in one sentence.
 [[nodiscard]] std::string cure_text(const Mesh& mesh, const Cure& cure, const InputNames* names = nullptr);
+
+/// An explanation as a report: with the mesh and the names for its sentences.
+struct ExplanationReport {
+  const Mesh& mesh;
+  const Explanation& explanation;
+  const InputNames* names = nullptr;
+};
+[[nodiscard]] const ReportTable& table_of(const ExplanationReport*);
 
 }  // namespace temper

@@ -284,6 +284,7 @@ enum class Feasibility {
   undecided,   ///< The best margin is zero up to rounding, or the solver failed
 };
 [[nodiscard]] std::string_view name(Feasibility verdict);
+[[nodiscard]] std::span<const std::string_view> words_of(Feasibility);
 
 /// The meaning of the reported best margin of the mesh.
 enum class MarginKind {

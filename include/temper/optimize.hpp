@@ -461,28 +461,36 @@ struct SizeChange {
 };
 [[nodiscard]] const ReportTable& table_of(const SizeChange*);
 
-struct OptimizeReport {
+/// The part of a report that runs of triangles and of tetrahedra share.
+struct RunReport {
   Stopped stopped = Stopped::converged;
   int sweeps = 0;
-  std::size_t flips = 0;
+  double seconds = 0;           ///< Time of the optimization alone [s]
+  double objective_before = 0;  ///< Objective of the input, at the final γ
+  double objective_after = 0;   ///< The same of the result
+  std::size_t flips = 0;        ///< Changes of connectivity without a new or removed vertex
   std::size_t vertices_removed = 0;
   std::size_t vertices_inserted = 0;
+  std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input
+
+  /// Counts removed and inserted vertices. `vertices`: number of each vertex in the input, as in the report.
+  void count_vertices(std::size_t n_input_vertices, const IdVector<VertexId, VertexId>& vertices);
+};
+
+/// For Objective::accuracy the objective is E of AccuracyOptions with absolute values for its edges, and with the same
+/// sizes before and after. With an error model it is the root mean square error. history[0] is the input, flipped to be
+/// regular.
+struct OptimizeReport : RunReport {
   /// Number of each vertex in the input, in the order of the result. Inserted vertices follow in the order of their
   /// insertion, with an invalid number. Empty if no vertex was removed or inserted.
   IdVector<VertexId, VertexId> vertices;
   /// Vertices without power cell that HiddenPolicy::keep left; empty while triangles are inverted.
   std::vector<VertexId> hidden_vertices;
   Objective objective = Objective::accuracy;  ///< Objective that the run lowered
-  double seconds = 0;                         ///< Time of the optimization alone [s]
-  double objective_before = 0;  ///< Objective of the input, at the final γ. For Objective::accuracy: E of
-                                ///< AccuracyOptions with absolute values for its edges, and with the same sizes before
-                                ///< and after. With an error model: the root mean square error
-  double objective_after = 0;
-  std::size_t bad_before = 0;  ///< Triangles of the input that are not well-centered, before any flip
-  std::size_t bad_after = 0;   ///< The same of the result
+  std::size_t bad_before = 0;                 ///< Triangles of the input that are not well-centered, before any flip
+  std::size_t bad_after = 0;                  ///< The same of the result
   SizeChange size;
-  std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input, flipped to be regular
-  std::vector<std::string> notes;    ///< Notes for the user, in sentences
+  std::vector<std::string> notes;  ///< Notes for the user, in sentences
 };
 [[nodiscard]] const ReportTable& table_of(const OptimizeReport*);
 

@@ -158,7 +158,7 @@ def _reasons(mesh: Mesh, measures: dict[str, Any]) -> list[dict[str, Any]]:
     if bad == 0 or bad > _EXPLAINED or measures["inverted_triangles"]:
         return []
     return [
-        {"kind": r.kind, "triangles": r.bad.tolist(), "text": r.text, "cures": [cure.text for cure in r.cures]}
+        {"kind": r.kind, "triangles": r.triangles.tolist(), "text": r.text, "cures": [cure.text for cure in r.cures]}
         for r in explain(mesh).reasons
     ]
 

@@ -35,6 +35,21 @@ class TetQuality(Record):
         return table("TetQuality", rows, table("worst tetrahedra", worst) if worst else "")
 
 
+class FieldFrame(Record):
+    def _plain(self: Any) -> tuple[float, ...]:
+        return (*self.center, self.half_size)
+
+
+class Explanation(Record):
+    def __str__(self: Any) -> str:
+        return "\n".join([Record.__str__(self), *(f"  {r.kind}: {r.text}" for r in self.reasons)])
+
+    def _repr_html_(self: Any) -> str:
+        rows = [row for row in self._rows() if row[0] != "reasons"]
+        reasons = [(str(r.kind), r.text + (" Cure: " + r.cures[0].text if r.cures else "")) for r in self.reasons]
+        return table("Explanation", rows, table("reasons", reasons) if reasons else "")
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class OptimizeReport(Record):
     _meshes: tuple[Mesh, Mesh] | None = dataclasses.field(default=None, repr=False, compare=False, kw_only=True)

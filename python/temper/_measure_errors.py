@@ -12,6 +12,7 @@ from . import _temper
 from ._dec import CoefficientLike, _coefficient_of, _named_lines
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
 from ._records import Record, expect, merged
+from ._reports import DiffusionErrors, ErrorCounts, ErrorNorms, FieldFrame, TetErrorCounts
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh
 
 FieldGroup = Literal["chosen", "held-back", "exact"]
@@ -27,27 +28,6 @@ class ErrorField(Record):
     value. exact: linear fields, which both schemes must reproduce on any mesh."""
     formula: str
     """Formula in x and y of the frame, of tetrahedra also in z."""
-
-
-@dataclasses.dataclass(frozen=True)
-class FieldFrame(Record):
-    """The frame of the fields, which are functions of (p − center) / half_size."""
-
-    center: tuple[float, ...]
-    """Two coordinates, or three of tetrahedra."""
-    half_size: float
-    """> 0 [length]."""
-
-    def _plain(self) -> tuple[float, ...]:
-        return (*self.center, self.half_size)
-
-
-@dataclasses.dataclass(frozen=True)
-class ErrorNorms(Record):
-    """Relative errors: l2 over the field's root mean square, and the maximum over it. inf if the system is singular."""
-
-    l2: float
-    max: float
 
 
 @dataclasses.dataclass(frozen=True)
@@ -76,27 +56,6 @@ class FieldErrors(Record):
     errors: OperatorErrors
 
 
-@dataclasses.dataclass(frozen=True)
-class ErrorSystem(Record):
-    """The matrix of a scheme, without the unknowns that the boundary fixes."""
-
-    unknowns: int
-    m_matrix: bool
-    """No positive entry is off the diagonal, and the matrix is diagonally dominant, by exact signs of the dual
-    lengths."""
-    definite: bool
-    singular: bool
-    """The system could not be solved: all errors are inf."""
-    negative: int
-    """Number of edges with a negative coefficient, exact."""
-    merged: int
-    """For flux: number of edges whose two orthocenters coincide, so that they are one unknown."""
-    largest_over_median: float
-    """Largest over median \\|coefficient\\| of interior edges; inf if one is inf."""
-    condition: float | None
-    """Spectral condition, a lower bound near the true value; None if it was not requested."""
-
-
 @dataclasses.dataclass(frozen=True, eq=False)
 class ErrorLevel(Record):
     """One mesh of a refined family."""
@@ -109,19 +68,9 @@ class ErrorLevel(Record):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class ErrorReport(Record):
+class ErrorReport(ErrorCounts):
     """The result of ``measure_errors``."""
 
-    vertices: int
-    edges: int
-    triangles: int
-    non_regular_edges: int
-    negative_boundary_duals: int
-    negative_star0: int
-    not_well_centered: int
-    frame: FieldFrame
-    poisson: ErrorSystem
-    flux: ErrorSystem
     fields: list[FieldErrors]
     levels: list[ErrorLevel]
     """The mesh itself and its refinements, coarsest first; empty without refine."""
@@ -138,21 +87,10 @@ class ErrorReport(Record):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class TetErrorReport(Record):
-    """The result of ``measure_errors`` for tetrahedra. ``negative`` of ``poisson`` counts edges, and that of ``flux``
-    faces."""
+class TetErrorReport(TetErrorCounts):
+    """The result of ``measure_errors`` for tetrahedra. ``negative`` of the matrix ``poisson`` counts edges, and that of
+    ``flux`` faces."""
 
-    vertices: int
-    edges: int
-    faces: int
-    tetrahedra: int
-    non_regular_faces: int
-    negative_boundary_duals: int
-    negative_star0: int
-    not_well_centered: int
-    frame: FieldFrame
-    poisson: ErrorSystem
-    flux: ErrorSystem
     fields: list[FieldErrors]
 
     def _rows(self) -> list[tuple[str, str]]:
@@ -161,10 +99,10 @@ class TetErrorReport(Record):
 
 def _report_rows(report: ErrorReport | TetErrorReport, rows: list[tuple[str, str]]) -> list[tuple[str, str]]:
     """The rows of plain numbers, then those of mean errors."""
-    nested = ("frame", "poisson", "flux", "fields", "levels", "orders")
+    nested = ("frame", "matrices", "fields", "levels", "orders")
     mean = dict(zip(_KEYS, geometric_mean(report.fields)._row()))
     errors = [(label, f"{mean[key]:.4g}") for key, label in error_measures()]
-    return [row for row in rows if row[0] not in nested] + errors + [("Poisson, M-matrix", str(report.poisson.m_matrix))]
+    return [row for row in rows if row[0] not in nested] + errors + [("Poisson, M-matrix", str(report.matrices.poisson.m_matrix))]
 
 
 _KEYS = [f"{name}.{norm}" for name in ("star0", "star1", "star2", "poisson", "flux") for norm in ("l2", "max")]
@@ -181,8 +119,8 @@ def field_frame(mesh: AnyMeshLike) -> FieldFrame:
     counts."""
     any_mesh = as_any_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
-        return FieldFrame(**_temper.tet_field_frame(any_mesh._handle))
-    return FieldFrame(**_temper.field_frame(any_mesh._handle))
+        return _temper.tet_field_frame(any_mesh._handle)
+    return _temper.field_frame(any_mesh._handle)
 
 
 def error_measures() -> list[tuple[str, str]]:
@@ -200,25 +138,6 @@ def _fields(d: dict[str, Any], fields: Sequence[ErrorField] = ()) -> list[FieldE
 def _plain(fields: Sequence[FieldErrors]) -> tuple[list[str], npt.NDArray[np.float64]]:
     values = np.array([expect("fields", row, FieldErrors).errors._row() for row in fields], dtype=np.float64).reshape(-1, 10)
     return [row.field.name for row in fields], values
-
-
-@dataclasses.dataclass(frozen=True)
-class DiffusionErrors(Record):
-    """The errors of both schemes for one problem."""
-
-    vertex: ErrorNorms
-    """Errors at vertices, relative to the reference: its L2 norm, and its largest absolute value."""
-    cell: ErrorNorms
-    """Errors at orthocenters."""
-    reference: ErrorNorms
-    """Change of the reference by its last refinement: how much of the errors is its own."""
-    vertex_system: ErrorSystem
-    cell_system: ErrorSystem
-    refinements: int
-    """Refinements of the mesh for the reference."""
-    least: float
-    """Least value of the reference at the vertices."""
-    largest: float
 
 
 def measure_diffusion_errors(
@@ -264,10 +183,7 @@ def measure_diffusion_errors(
     """
     given = as_mesh(mesh)
     plain = _plain_problem(given, dirichlet=dirichlet, neumann=neumann, source=source, coefficient=coefficient)
-    d = _temper.measure_diffusion_errors(given._handle, plain, refinements)
-    norms = {key: ErrorNorms(**d[key]) for key in ("vertex", "cell", "reference")}
-    systems = {key: ErrorSystem(**d[key]) for key in ("vertex_system", "cell_system")}
-    return DiffusionErrors(**merged(d, **norms, **systems))
+    return _temper.measure_diffusion_errors(given._handle, plain, refinements)
 
 
 class DiffusionProblem(TypedDict, total=False):
@@ -395,20 +311,10 @@ def measure_errors(
         if refine or local:
             raise TypeError("refine and local are for triangles alone. Next: leave them out")
         d = _temper.tet_measure_errors(any_mesh._handle, list(fields), plain_frame, condition)
-        systems = {name: ErrorSystem(**d[name]) for name in ("poisson", "flux")}
-        rows = _fields(d["fields"], error_fields(tetrahedra=True))
-        return TetErrorReport(**merged(d, frame=FieldFrame(**d["frame"]), fields=rows, **systems))
+        return TetErrorReport(**merged(d, fields=_fields(d["fields"], error_fields(tetrahedra=True))))
     d = _temper.measure_errors(any_mesh._handle, list(fields), plain_frame, refine, condition, local, threads)
     levels = [ErrorLevel(**merged(level, fields=_fields(level["fields"]))) for level in d["levels"]]
-    changed = {
-        "frame": FieldFrame(**d["frame"]),
-        "poisson": ErrorSystem(**d["poisson"]),
-        "flux": ErrorSystem(**d["flux"]),
-        "fields": _fields(d["fields"]),
-        "orders": _fields(d["orders"]),
-        "levels": levels,
-    }
-    return ErrorReport(**merged(d, **changed))
+    return ErrorReport(**merged(d, fields=_fields(d["fields"]), orders=_fields(d["orders"]), levels=levels))
 
 
 def geometric_mean(fields: Sequence[FieldErrors], group: FieldGroup | None = None) -> OperatorErrors:

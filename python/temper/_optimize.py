@@ -16,7 +16,7 @@ from ._measure_errors import _plain_problem
 from ._mesh import PICTURE, Mesh, MeshLike, as_mesh, put_back
 from ._options import EffortName, KeepName, OptimizeOptions, TargetName, _words, lists_presets, rows_set, settled
 from ._progress import Line
-from ._records import CLASSES, Record
+from ._records import Record
 from ._reports import OptimizeReport, Progress, TraceEvent
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 from .size import SizeField
@@ -45,9 +45,6 @@ class Snapshot:
     def _of(cls, d: dict[str, Any]) -> Snapshot:
         handle: _temper.Mesh = d.pop("mesh")
         return cls(**d, mesh=Mesh._of(handle))
-
-
-CLASSES["TetOptimizeReport"] = OptimizeReport  # which has the fields of both
 
 
 def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callable[..., bool] | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import html
+import keyword
 import math
 from typing import Any, TypeVar
 
@@ -77,7 +78,7 @@ CLASSES: dict[str, type[Record]] = {}
 
 def made(name: str, fields: dict[str, Any]) -> Record:
     """The report whose fields the compiled half has read by their table."""
-    return CLASSES[name](**fields)
+    return CLASSES[name](**{key + "_" * keyword.iskeyword(key): value for key, value in fields.items()})
 
 
 class Record:

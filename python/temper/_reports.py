@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _looks
-from ._records import Record
+from ._certificate import Certificate
+from ._records import CLASSES, Record
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -300,7 +301,7 @@ class OptimizeReport(_looks.OptimizeReport):
     vertices_inserted: int
     """Number of new vertices."""
     flips: int
-    """Number of flips."""
+    """Number of changes of connectivity without a new or removed vertex."""
     vertices: npt.NDArray[np.int32]
     """Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted."""
     bad_before: int
@@ -312,7 +313,7 @@ class OptimizeReport(_looks.OptimizeReport):
     notes: list[str]
     """Notes for the user, in sentences."""
     history: list[SweepRecord] = dataclasses.field(repr=False)
-    """One record per sweep; history[0] is the input, with its edges flipped to be regular."""
+    """One record per sweep; history[0] is the input. Triangles are flipped to be regular before."""
     data: DataReport | TetDataReport | None = dataclasses.field(default=None, kw_only=True)
     """Report on the data of the mesh; None without data."""
 
@@ -488,6 +489,297 @@ class TetDecSummary(Record):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class CrossingSide(Record):
+    """One side of the edge of a conflict: the interval in which well-centered triangles let the dual cross the edge."""
+
+    triangles: npt.NDArray[np.int32]
+    """Triangles of this side; the first one has the edge."""
+    from_: float
+    """Begin of the interval, as a distance from the edge's first vertex, exclusive [length]."""
+    to: float
+    """End of the interval [length]."""
+    widest_at: int
+    """Vertex of the largest angle of these triangles."""
+    angle_deg: float
+    """Largest angle of these triangles [degrees]."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class CrossingConflict(Record):
+    """An edge whose two sides have disjoint intervals."""
+
+    edge: tuple[int, int]
+    """Vertices p and q of the edge."""
+    length: float
+    """Length of the edge [length]."""
+    left: CrossingSide
+    """Left side of p → q."""
+    right: CrossingSide
+    """Right side of p → q."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class FanCenter(Record):
+    """The common corner of the triangles of a fan."""
+
+    vertex: int
+    """The corner."""
+    on_boundary: bool
+    """The corner is on the boundary."""
+    angle_deg: float
+    """Angle of the domain at a boundary vertex; else 360 [degrees]."""
+    shortest_edge: tuple[int, int]
+    """Shortest edge of the fan at the corner."""
+    shortest_length: float
+    """Its length [length]."""
+    longest_edge: tuple[int, int]
+    """Longest edge of the fan at the corner."""
+    longest_length: float
+    """Its length [length]."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class EdgeConflict(Record):
+    """An edge u → v with contradictory vertices: one requires that the dual crosses it near u, another near v."""
+
+    edge: tuple[int, int]
+    """Vertices u and v."""
+    halfedge: int
+    """Halfedge from u to v."""
+    length: float
+    """Length of the edge [length]."""
+    near: tuple[int, int]
+    """The vertex that requires a crossing near u, and the one near v."""
+    within: tuple[float, float]
+    """Largest distances of these crossings from u, and from v [length]."""
+    sum: float
+    """Sum of these distances over the length: at most 1 if there is no place for the crossing."""
+    split_at: float
+    """Part of the way from u: the middle of what is left, but at least 0.2 from each end."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Cure(Record):
+    """A change that would cure a reason."""
+
+    action: Literal["find_weights", "optimize", "move_vertex", "flip_edge", "insert_vertex", "split_edge", "split_boundary"]
+    """Kind of the change."""
+    edge: tuple[int, int] | None
+    """Edge that is flipped or split."""
+    vertex: int | None
+    """Vertex that is moved."""
+    triangle: int | None
+    """Triangle that gets a vertex."""
+    at: tuple[float, float] | None
+    """Place of the change; on the sphere longitude and latitude [degrees]."""
+    verified: bool
+    """A trial on a copy succeeded: the triangles of the neighborhood then have weights that make them well-centered,
+    checked exactly."""
+    conflict_only: bool
+    """Only the triangles of the conflict, and those that the change touches, were tested."""
+    ends_conflict: bool
+    """For a split: neither half of the edge must be split again, checked exactly."""
+    margin: float | None
+    """Best margin of h/ℓ and d/ℓ after the cure."""
+    margin_of: int
+    """Number of triangles that `margin` is for."""
+    left_out: int
+    """Number of bad triangles nearby that belong to other conflicts and were not tested."""
+    weights_changed: int
+    """For find_weights: number of nonzero weights around the bad triangles."""
+    text: str
+    """The cure in one sentence."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Reason(Record):
+    """A reason why triangles are not well-centered."""
+
+    kind: Literal["split", "edge", "fan", "patch", "weights", "undecided"]
+    """Kind of the reason."""
+    at: tuple[float, float]
+    """Centroid of the worst triangle; on the sphere longitude and latitude [degrees]."""
+    triangles: npt.NDArray[np.int32]
+    """Triangles that are not well-centered for this reason, worst first."""
+    least_margin: float
+    """Least h/ℓ or d/ℓ of these triangles as they are."""
+    conflict: npt.NDArray[np.int32]
+    """For edge, fan, patch: smallest set of triangles for which no weights exist; `triangles` is a part of it."""
+    margin: float
+    """Best margin. For edge, fan, patch: of the conflict, at most 0. For weights: of the neighborhood, above 0."""
+    margin_of: int
+    """Number of triangles that `margin` is for."""
+    each: bool
+    """`margin` is the least over bad triangles, each with the triangles that touch it."""
+    free: npt.NDArray[np.int32]
+    """Corners that may move."""
+    crossing: CrossingConflict | None
+    """Crossings, for edge, fan, and patches without closed rings."""
+    center: FanCenter | None
+    """Common vertex of all triangles, for edge, fan, patch, if there is one."""
+    must_split: EdgeConflict | None
+    """Conflict of the edge, for split."""
+    certificate: Certificate
+    """Proof for edge, fan, patch; `check_certificate` accepts it."""
+    cures_searched: bool
+    """Cures were searched for; else `cures` has only those that need no search."""
+    cures: list[Cure]
+    """Cures, best first."""
+    text: str
+    """The reason in words."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Explanation(_looks.Explanation):
+    """The result of ``explain``."""
+
+    triangles: int
+    """Number of triangles."""
+    bad: int
+    """Number of triangles that are not well-centered."""
+    verdict: Literal["feasible", "infeasible", "undecided"]
+    """Verdict on the whole mesh with its positions and connectivity. Feasible if no triangle is bad."""
+    weights_changed: int | None
+    """For feasible: number of nonzero weights in the result of find_weights."""
+    margin: float
+    """Requested margin of these weights: 0.01, or half of the best margin if that is less."""
+    reasons: list[Reason]
+    """Reasons: certified ones first, by least margin; then by least_margin."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class FieldFrame(_looks.FieldFrame):
+    """The frame of the fields, which are functions of (p − center) / half_size."""
+
+    center: tuple[float, ...]
+    """Its center."""
+    half_size: float
+    """> 0 [length]."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ErrorSystem(Record):
+    """The matrix of a scheme, without the unknowns that the boundary fixes."""
+
+    unknowns: int
+    """Number of unknowns."""
+    m_matrix: bool
+    """No positive entry is off the diagonal, and the matrix is diagonally dominant, by exact signs of the dual
+    lengths."""
+    positive_definite: bool
+    """The matrix is positive definite, by its pivots."""
+    singular: bool
+    """The system could not be solved: all errors are infinite."""
+    negative: int
+    """Number of edges, or faces of tetrahedra, with a negative coefficient, exact."""
+    merged: int
+    """For flux: number of edges or faces whose two orthocenters coincide, so that they are one unknown."""
+    largest_over_median: float
+    """Largest over median \\|coefficient\\| inside; infinite if one is."""
+    condition: float | None
+    """Spectral condition, a lower bound near the true value; absent if it was not requested."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ErrorMatrices(Record):
+    """The matrices of both schemes."""
+
+    poisson: ErrorSystem
+    """−Δu = f at the vertices."""
+    flux: ErrorSystem
+    """−Δu = f at the orthocenters."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ErrorCounts(Record):
+    """The mesh and the matrices of ``measure_errors``."""
+
+    vertices: int
+    """Number of vertices."""
+    edges: int
+    """Number of edges."""
+    triangles: int
+    """Number of triangles."""
+    not_well_centered: int
+    """Number of triangles that are not well-centered, exact."""
+    non_regular_edges: int
+    """Number of interior edges of negative dual length, exact."""
+    negative_boundary_duals: int
+    """Number of boundary edges with a negative dual length, exact."""
+    negative_star0: int
+    """Number of negative ★0."""
+    frame: FieldFrame
+    """Frame of the fields."""
+    matrices: ErrorMatrices
+    """Matrices of both schemes."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetErrorCounts(Record):
+    """The mesh and the matrices of ``measure_errors``, of tetrahedra."""
+
+    vertices: int
+    """Number of vertices."""
+    edges: int
+    """Number of edges."""
+    faces: int
+    """Number of faces."""
+    tetrahedra: int
+    """Number of tetrahedra."""
+    not_well_centered: int
+    """Number of tetrahedra that are not well-centered, exact."""
+    non_regular_faces: int
+    """Number of interior faces of negative dual length, exact."""
+    negative_boundary_duals: int
+    """Number of boundary faces with a negative dual length, exact."""
+    negative_star0: int
+    """Number of negative ★0."""
+    frame: TetFieldFrame
+    """Frame of the fields."""
+    matrices: ErrorMatrices
+    """Matrices of both schemes."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ErrorNorms(Record):
+    """Relative errors: l2 over the field's root mean square, and the maximum over it. Infinite if the system is
+    singular."""
+
+    l2: float
+    max: float
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class DiffusionMatrices(Record):
+    """The matrices of both schemes for one problem."""
+
+    vertex: ErrorSystem
+    """Unknowns at vertices."""
+    cell: ErrorSystem
+    """Unknowns at orthocenters."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class DiffusionErrors(Record):
+    """The errors of both schemes for one problem."""
+
+    vertex: ErrorNorms
+    """Errors at vertices, relative to the reference: its L2 norm, and its largest absolute value."""
+    cell: ErrorNorms
+    """Errors at orthocenters."""
+    reference: ErrorNorms
+    """Change of the reference by its last refinement: how much of the errors is its own."""
+    matrices: DiffusionMatrices
+    """Matrices of both schemes."""
+    refinements: int
+    """Refinements of the mesh for the reference."""
+    least: float
+    """Least value of the reference at the vertices."""
+    largest: float
+    """Largest value of the reference at the vertices."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class TetDataReport(Record):
     """The fate of the data of points and cells after the mesh has changed. All 0 without such data."""
 
@@ -511,3 +803,7 @@ class TetDataReport(Record):
     """Cells among these that the file does not have at the same number and places."""
     of_tetrahedra: list[str]
     """Data of cells: each cell has the data of the file's cell that contains its middle."""
+
+
+CLASSES["TetOptimizeReport"] = OptimizeReport
+CLASSES["TetFieldFrame"] = FieldFrame

@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
+from ._certificate import Certificate, Constraints, WeightConstraint, read_certificate
 from ._mesh import Mesh, MeshLike, _ints, as_mesh
 from ._records import Record, expect, merged
+from ._reports import EdgeConflict
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
-
-Constraints = Literal["well_centered", "heights_only", "regular", "completely_well_centered"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -44,73 +44,6 @@ def constraints_table(*, tetrahedra: bool = False) -> list[ConstraintsInfo]:
 
 def _edges(edges: npt.ArrayLike | None) -> npt.NDArray[np.int64] | None:
     return None if edges is None else _ints(edges, 2, "edges").astype(np.int64)
-
-
-@dataclasses.dataclass(frozen=True)
-class WeightConstraint:
-    """One inequality of the constraints."""
-
-    kind: Literal["height", "crossing", "dual", "height_over_face", "dual_of_face"]
-    """height: h over edge pq of the triangle pqr, counter-clockwise; crossing: d from p towards q, for any edge pq;
-    dual: dual length of pq between the triangles pqr and qps; height_over_face: h over the face pqr of the tetrahedron
-    pqrs; dual_of_face: dual length of pqr between the tetrahedra pqrs and prqt."""
-    p: int
-    q: int
-    r: int
-    """Third vertex; −1 for a crossing."""
-    s: int = -1
-    """Fourth vertex; −1 for a crossing and a height."""
-    t: int = -1
-    """Fifth vertex, only for a dual of a face; else −1."""
-
-
-def _read(text: str, part: str) -> dict[str, Any]:
-    """The certificate or proof in a text, which must have this part."""
-    d = _temper.certificate_from_json(text)
-    if part not in d:
-        raise TypeError(f"expected a certificate with {part}. Next: temper.types.{'ConnectivityProof' if 'lemmas' in d else 'Certificate'} reads it")
-    return d
-
-
-@dataclasses.dataclass(frozen=True)
-class Certificate(Record):
-    """A proof that no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum is a contradiction. The
-    polynomials are in ``temper/feasibility.hpp`` and docs/explanation/weights.md."""
-
-    margin: float
-    """Refuted margin: no weights keep the constraints with more than this margin."""
-    terms: list[tuple[WeightConstraint, float]]
-    """Constraints and their multipliers; empty: no certificate."""
-    constraints: Constraints = "well_centered"
-    """Kind of constraints. For ``regular`` the proof assumes that weights differ by less than 2²⁰ ℓ² along edges."""
-
-    def _plain(self) -> dict[str, Any]:
-        terms = [(dataclasses.astuple(c), float(m)) for c, m in self.terms]
-        return {"margin": self.margin, "terms": terms, "constraints": self.constraints}
-
-    @classmethod
-    def _of(cls, d: dict[str, Any]) -> Certificate:
-        return cls(d["margin"], [(WeightConstraint(*c), m) for c, m in d["terms"]], d["constraints"])
-
-    def to_json(self) -> str:
-        """The certificate as JSON, which ``temper weights --check-certificate`` reads. Vertices count from 0."""
-        return str(_temper.certificate_to_json(self._plain()))
-
-    @classmethod
-    def from_json(cls, text: str) -> Certificate:
-        """Reads the text of ``to_json`` or of ``temper weights --certificate``.
-
-        Raises
-        ------
-        TemperError
-            No such certificate. The message names the wrong term.
-
-        >>> import temper
-        >>> proof = temper.find_weights(temper.generate.sparse_horseshoe(), goal="margin").certificate
-        >>> temper.types.Certificate.from_json(proof.to_json()) == proof
-        True
-        """
-        return cls._of(_read(text, "terms"))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -367,7 +300,7 @@ class ConnectivityProof(Record):
     @classmethod
     def from_json(cls, text: str) -> ConnectivityProof:
         """Reads the text of ``to_json``. TemperError: no such proof; the message names the wrong lemma."""
-        return cls._of(_read(text, "lemmas"))
+        return cls._of(read_certificate(text, "lemmas"))
 
 
 def check_certificate(mesh: AnyMeshLike, certificate: Certificate | ConnectivityProof) -> str:
@@ -450,32 +383,13 @@ def best_connectivity(
 # --- necessity -------------------------------------------------------------------------------------------------
 
 
-@dataclasses.dataclass(frozen=True)
-class EdgeConflict(Record):
-    """An edge u → v with contradictory vertices: one requires that the dual crosses it near u, another near v."""
-
-    edge: tuple[int, int]
-    """Vertices u and v."""
-    halfedge: int
-    near_u: int
-    near_v: int
-    a: float
-    """Parts of the edge's length."""
-    b: float
-    sum: float
-    """Sum a + b: at most 1 if there is no place for the crossing."""
-    split_at: float
-    """Part of the way from u: the middle between a and 1 − b, but at least 0.2 from each end."""
-
-
 def edge_conflict(mesh: MeshLike, halfedge: int, *, up_to: float = 1.0) -> EdgeConflict | None:
     """The conflict of one edge if a + b ≤ up_to, exactly. With up_to = 1, no well-centered mesh has this edge and these
     two vertices (docs/explanation/proofs.md)."""
-    d = _temper.edge_conflict(as_mesh(mesh)._handle, halfedge, up_to)
-    return None if d is None else EdgeConflict(**d)
+    return _temper.edge_conflict(as_mesh(mesh)._handle, halfedge, up_to)
 
 
 def edges_that_must_be_split(mesh: MeshLike, *, up_to: float = 1.0) -> list[EdgeConflict]:
     """All edges of the boundary and of constrained lines with such a conflict, least sum first. An empty list does not
     mean that a well-centered mesh exists."""
-    return [EdgeConflict(**d) for d in _temper.edges_that_must_be_split(as_mesh(mesh)._handle, up_to)]
+    return _temper.edges_that_must_be_split(as_mesh(mesh)._handle, up_to)

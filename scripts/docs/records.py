@@ -9,6 +9,7 @@ names tables whose fields an object has, besides its own properties.
 """
 
 import json
+import keyword
 import pathlib
 import re
 import subprocess
@@ -20,10 +21,10 @@ ROOT = HERE.parent.parent
 WIDTH = 120
 VERSION = 1  # of the schema
 # Reports on tetrahedra that are of the same class in Python as those on triangles.
-SAME_CLASS = {"TetOptimizeReport": "OptimizeReport"}
+SAME_CLASS = {"TetOptimizeReport": "OptimizeReport", "TetFieldFrame": "FieldFrame"}
 # Reports that only the program has, and reports that npm has not.
 PROGRAM_ALONE = {"Outcome", "Operators", "TetOperators", "ColumnCounts"}
-NOT_IN_NPM = {"DataReport"}
+NOT_IN_NPM = {"TetExplanation", "TetReason", "FaceHeight", "DataReport", "DiffusionErrors", "DiffusionMatrices", "ErrorCounts", "ErrorMatrices", "ErrorNorms", "ErrorSystem", "FieldFrame"}
 # Fields that Python adds.
 MORE = {
     "OptimizeReport": """    data: DataReport | TetDataReport | None = dataclasses.field(default=None, kw_only=True)
@@ -69,6 +70,8 @@ def schema_of_item(kind):
         return {"$ref": "#/$defs/" + NUMBERS[kind["kind"]]}
     if kind["kind"] == "text":
         return {"enum": kind["words"]} if kind["words"] else {"type": "string"}
+    if kind["kind"] == "certificate":
+        return {"anyOf": [{"$ref": "#/$defs/certificate"}, {"type": "null"}]}
     return {"type": {"flag": "boolean", "whole": "integer"}[kind["kind"]]}
 
 
@@ -106,7 +109,7 @@ def schema(tables):
 # --- Python ------------------------------------------------------------------------------------------------------
 
 ARRAYS = {"count": "uint64", "vertex": "int32", "element": "int32", "number": "float64"}
-PLAIN = {"flag": "bool", "count": "int", "whole": "int", "number": "float", "vertex": "int", "element": "int"}
+PLAIN = {"certificate": "Certificate", "flag": "bool", "count": "int", "whole": "int", "number": "float", "vertex": "int", "element": "int"}
 
 
 def python_of_item(kind):
@@ -117,13 +120,16 @@ def python_of_item(kind):
     return PLAIN[kind["kind"]]
 
 
-def python_of_type(kind):
+def python_of_type(kind, other_sizes=None):
+    """`other_sizes`: those of tetrahedra, if they are of the same class."""
     if kind["sizes"] == [0] and kind["kind"] in ARRAYS:
         made = f"npt.NDArray[np.{ARRAYS[kind['kind']]}]"
     else:
         made = python_of_item(kind)
         for size in reversed(kind["sizes"]):
             made = f"tuple[{', '.join([made] * size)}]" if size else f"list[{made}]"
+        if other_sizes not in (None, kind["sizes"]):
+            made = f"tuple[{python_of_item(kind)}, ...]"
     return made + (" | None" if kind["optional"] else "")
 
 
@@ -136,21 +142,22 @@ def docstring(text, indent="    "):
 def python(tables, looks):
     """`looks`: names of classes in _looks.py, which give a record more than its fields."""
     text = f'"""{NOTE}"""\n\nfrom __future__ import annotations\n\nimport dataclasses\nfrom typing import Literal\n\n'
-    text += "import numpy as np\nimport numpy.typing as npt\n\nfrom . import _looks\nfrom ._records import Record\n"
+    text += "import numpy as np\nimport numpy.typing as npt\n\nfrom . import _looks\nfrom ._certificate import Certificate\nfrom ._records import CLASSES, Record\n"
     for table in tables:
         if table["name"] in PROGRAM_ALONE or table["name"] in SAME_CLASS:
             continue
         others = [other for other in tables if SAME_CLASS.get(other["name"]) == table["name"]]
         absent = {f["key"] for other in others for f in other["fields"] if f["type"]["optional"]}
+        lengths = {f["key"]: f["type"]["sizes"] for other in others for f in other["fields"]}
         base = f"_looks.{table['name']}" if table["name"] in looks else "Record"
         text += f"\n\n@dataclasses.dataclass(frozen=True, eq=False)\nclass {table['name']}({base}):\n" + docstring(table["sentence"]) + "\n"
         for field in table["fields"]:
             kind = {**field["type"], "optional": field["type"]["optional"] or field["key"] in absent}
             hidden = " = dataclasses.field(repr=False)" if field["shown"] == "by_key" else ""
-            text += f"    {field['key']}: {python_of_type(kind)}{hidden}\n"
+            text += f"    {field['key']}{'_' * keyword.iskeyword(field['key'])}: {python_of_type(kind, lengths.get(field['key'], kind['sizes']))}{hidden}\n"
             text += docstring(sentence_of(field)) if field["sentence"] else ""
         text += MORE.get(table["name"], "")
-    return text
+    return text + "\n\n" + "".join(f'CLASSES["{other}"] = {name}\n' for other, name in SAME_CLASS.items())
 
 
 # --- TypeScript --------------------------------------------------------------------------------------------------
@@ -164,7 +171,7 @@ def typescript_of_item(kind):
         return kind["record"]
     if kind["kind"] == "text":
         return " | ".join(f"'{word}'" for word in kind["words"]) or "string"
-    return "boolean" if kind["kind"] == "flag" else "number"
+    return {"flag": "boolean", "certificate": "Certificate"}.get(kind["kind"], "number")
 
 
 def typescript_of_type(kind):
@@ -175,7 +182,7 @@ def typescript_of_type(kind):
 
 
 def typescript(tables):
-    text = f"// {NOTE}\n"
+    text = f"// {NOTE}\nimport type {{ Certificate }} from './types.ts';\n"
     for table in tables:
         if table["name"] in PROGRAM_ALONE or table["name"] in NOT_IN_NPM or table["name"].startswith(("Tet", "WorstTet")):
             continue

@@ -16,17 +16,16 @@ template <class Summary>
 void add_coefficient_rows(ReportTable& table) {
   using S = Summary;
   const Field<S> rows[] = {
-      {"median_star1", "Median of |★1| over all edges", "", &S::median_star1, ShownIn::everywhere, "median |star1|"},
-      {"max_star1", "Largest |★1|", "", &S::max_star1, ShownIn::everywhere, "largest |star1|"},
+      {"median_star1", "Median of |★1| over all edges", "", &S::median_star1, "median |star1|"},
+      {"max_star1", "Largest |★1|", "", &S::max_star1, "largest |star1|"},
       {"max_star1_over_median", "Largest over median |★1|", "",
-       [](const S& s) { return ratio_to_median(s.max_star1, s.median_star1); }, ShownIn::everywhere,
-       "  over the median"},
+       [](const S& s) { return ratio_to_median(s.max_star1, s.median_star1); }, "  over the median"},
       {"median_transmissibility", "Median of |transmissibility| inside", "", &S::median_transmissibility},
       {"max_transmissibility", "Largest |transmissibility| inside; infinite if a dual edge has length 0", "",
-       &S::max_transmissibility, ShownIn::everywhere, "largest |transmissibility|"},
+       &S::max_transmissibility, "largest |transmissibility|"},
       {"max_transmissibility_over_median", "Largest over median |transmissibility|", "",
        [](const S& s) { return ratio_to_median(s.max_transmissibility, s.median_transmissibility); },
-       ShownIn::everywhere, "  over the median"}};
+       "  over the median"}};
   table.rows.insert(table.rows.end(), std::begin(rows), std::end(rows));
 }
 

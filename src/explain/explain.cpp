@@ -360,16 +360,18 @@ class Explainer {
 
 }  // namespace
 
-std::string_view name(ReasonKind kind) {
-  constexpr std::array<std::string_view, 6> kNames = {"split", "edge", "fan", "patch", "weights", "undecided"};
-  return kNames[static_cast<std::size_t>(kind)];
+std::span<const std::string_view> words_of(ReasonKind) {
+  static constexpr std::string_view kNames[] = {"split", "edge", "fan", "patch", "weights", "undecided"};
+  return kNames;
 }
+std::string_view name(ReasonKind kind) { return words_of(kind)[static_cast<std::size_t>(kind)]; }
 
-std::string_view name(Cure::Action action) {
-  constexpr std::array<std::string_view, 7> kNames = {"find_weights",  "optimize",   "move_vertex",   "flip_edge",
-                                                      "insert_vertex", "split_edge", "split_boundary"};
-  return kNames[static_cast<std::size_t>(action)];
+std::span<const std::string_view> words_of(Cure::Action) {
+  static constexpr std::string_view kNames[] = {"find_weights",  "optimize",   "move_vertex",   "flip_edge",
+                                                "insert_vertex", "split_edge", "split_boundary"};
+  return kNames;
 }
+std::string_view name(Cure::Action action) { return words_of(action)[static_cast<std::size_t>(action)]; }
 
 Expected<Explanation> explain(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));

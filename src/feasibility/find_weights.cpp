@@ -224,10 +224,11 @@ class WeightFinder {
 
 }  // namespace
 
-std::string_view name(Feasibility verdict) {
-  constexpr std::array<std::string_view, 3> kNames = {"feasible", "infeasible", "undecided"};
-  return kNames[static_cast<std::size_t>(verdict)];
+std::span<const std::string_view> words_of(Feasibility) {
+  static constexpr std::array<std::string_view, 3> kNames = {"feasible", "infeasible", "undecided"};
+  return kNames;
 }
+std::string_view name(Feasibility verdict) { return words_of(verdict)[static_cast<std::size_t>(verdict)]; }
 
 std::string_view name(MarginKind is) {
   constexpr std::array<std::string_view, 3> kNames = {"exact", "at_least", "at_most"};

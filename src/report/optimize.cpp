@@ -1,6 +1,7 @@
 // The tables of reports on runs.
 #include "temper/optimize.hpp"
 
+#include "report/run_rows.hpp"
 #include "temper/detail/report.hpp"
 
 namespace temper {
@@ -49,37 +50,21 @@ const ReportTable& table_of(const SizeChange*) {
 
 const ReportTable& table_of(const OptimizeReport*) {
   using R = OptimizeReport;
-  static const ReportTable table = report_table<R>(
-      "OptimizeReport", "The result of ``optimize``.",
-      {{"sweeps", "Number of sweeps", "", &R::sweeps},
-       {"seconds", "Time of the optimization alone", "s", &R::seconds},
-       {"stopped",
-        "Reason for the end of the run. tangled: triangles are inverted and no flips can make the mesh regular. "
-        "hidden: deferred flips hid a vertex against the policy, and the mesh is an earlier one. sweep_limit: all "
-        "sweeps for the accuracy are done, a normal end",
-        "", &R::stopped},
-       {"objective", "Objective that the run lowered", "", &R::objective},
-       {"objective_before", "Objective of the input, at the final γ", "", &R::objective_before},
-       {"objective_after", "Objective of the result", "", &R::objective_after},
-       {"vertices_removed", "Number of vertices of the input that were removed", "", &R::vertices_removed},
-       {"hidden_vertices", "Vertices without a power cell that the option hidden = keep left", "", &R::hidden_vertices},
-       {"vertices_inserted", "Number of new vertices", "", &R::vertices_inserted},
-       {"flips", "Number of flips", "", &R::flips},
-       {"vertices",
+  static const ReportTable table = run_table<R>(
+      "OptimizeReport", {"objective", "Objective that the run lowered", "", &R::objective},
+      {"hidden_vertices", "Vertices without a power cell that the option hidden = keep left", "", &R::hidden_vertices},
+      {{"vertices",
         "Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted",
         "", &R::vertices, ShownIn::libraries},
        {"bad_before", "Number of triangles or tetrahedra of the input that are not well-centered, before any flip", "",
         &R::bad_before, ShownIn::libraries},
        {"bad_after", "The same number of the result", "", &R::bad_after, ShownIn::libraries},
        {"size", "Change of the sizes; absent for tetrahedra", "", &R::size},
-       {"notes", "Notes for the user, in sentences", "",
-        [](const R& r) {
+       {"notes", "Notes for the user, in sentences", "", [](const R& r) {
           std::vector<TextWithOptions> notes;
           for (const std::string& note : r.notes) notes.push_back({note});
           return notes;
-        }},
-       {"history", "One record per sweep; history[0] is the input, with its edges flipped to be regular", "",
-        &R::history, ShownIn::by_key}});
+        }}});
   return table;
 }
 

@@ -234,7 +234,7 @@ def test_errors_fall_with_refinement_and_ratios_of_a_mesh_to_itself_are_one(ring
     assert len(report.levels) == 3 and report.levels[2].triangles == 16 * mesh.n_triangles
     assert temper.arithmetic_mean(report.orders).poisson.l2 > 1.5
     assert [len(values) for values in report.local] == [mesh.n_vertices, mesh.n_edges, mesh.n_triangles]
-    assert report.poisson.m_matrix and report.poisson.condition > 1 and report.frame == temper.field_frame(mesh)
+    assert report.matrices.poisson.m_matrix and report.matrices.poisson.condition > 1 and report.frame == temper.field_frame(mesh)
     ratios = temper.error_ratios(report, report)
     assert temper.geometric_mean(ratios)._row() == [1.0] * 10
     keys = [key for key, _ in temper.error_measures()]
@@ -344,7 +344,7 @@ def test_reasons_name_every_bad_triangle_once():
     seen = []
     why = temper.explain(mesh, progress=lambda done, all: seen.append((done, all)))
     bad = np.flatnonzero(~temper.triangle_quality(mesh).well_centered)
-    assert np.array_equal(np.sort(np.concatenate([r.bad for r in why.reasons])), bad) and why.bad == len(bad)
+    assert np.array_equal(np.sort(np.concatenate([r.triangles for r in why.reasons])), bad) and why.bad == len(bad)
     assert why.verdict == "infeasible" and all(r.text for r in why.reasons) and "Explanation" in why._repr_html_()
     for reason in why.reasons:
         if reason.certificate.terms:

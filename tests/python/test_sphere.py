@@ -296,10 +296,10 @@ def test_explain_gives_reasons_with_places_in_degrees():
     globe = temper.generate.random_sphere(60)
     why = temper.explain(globe, cures=2)
     assert why.verdict == "infeasible"
-    bad = np.concatenate([reason.bad for reason in why.reasons])
+    bad = np.concatenate([reason.triangles for reason in why.reasons])
     assert sorted(bad) == list(np.flatnonzero(~temper.triangle_quality(globe).well_centered))
     worst = why.reasons[0]
-    x, y, z = globe.weighted_vectors[globe.triangles[worst.bad[0]]].sum(axis=0)
+    x, y, z = globe.weighted_vectors[globe.triangles[worst.triangles[0]]].sum(axis=0)
     assert np.allclose(worst.at, (np.degrees(np.arctan2(y, x)), np.degrees(np.arctan2(z, np.hypot(x, y)))))
     assert temper.check_certificate(globe, worst.certificate) == "proves"
     assert worst.cures and temper.edges_that_must_be_split(globe) == []
@@ -453,7 +453,7 @@ def test_errors_of_solvers_on_a_closed_mesh(globe):
     temper.optimize(globe)
     after = temper.measure_errors(globe, fields=["all"])
     assert [row.field for row in after.fields] == temper.error_fields(sphere=True)
-    assert after.frame.half_size == EARTH and after.poisson.definite and after.flux.definite
+    assert after.frame.half_size == EARTH and after.matrices.poisson.positive_definite and after.matrices.flux.positive_definite
     ratios = temper.geometric_mean(temper.error_ratios(after, before))
     assert ratios.star[1].l2 < 0.65 and ratios.poisson.l2 < 0.9 and ratios.flux.l2 < 0.6
     with pytest.raises(temper.TemperError, match="no field 'bump'"):

@@ -42,98 +42,6 @@ class SolverOutside final : public LpSolver {
   }
 };
 
-template <class Tag>
-Json numbers(const std::vector<Id<Tag>>& ids) {
-  Json list = Json::array();
-  for (const Id<Tag> id : ids) list.push_back(number(id));
-  return list;
-}
-Json place(Vec2 at) { return Json::array({number(at.x), number(at.y)}); }
-
-Json to_json(const Mesh& mesh, const EdgeConflict& c) {
-  return {{"edge", {number(mesh.origin(c.edge)), number(mesh.target(c.edge))}},
-          {"halfedge", number(c.edge)},
-          {"near_u", number(c.near_u)},
-          {"near_v", number(c.near_v)},
-          {"a", number(c.a)},
-          {"b", number(c.b)},
-          {"sum", number(c.sum)},
-          {"split_at", number(c.split_at)}};
-}
-
-Json to_json(const Certificate& certificate) {
-  Json terms = Json::array();
-  for (const auto& [c, multiplier] : certificate.terms) {
-    const Json constraint = {
-        {"kind", name(c.kind)}, {"p", number(c.p)}, {"q", number(c.q)}, {"r", number(c.r)}, {"s", number(c.s)}};
-    terms.push_back({constraint, number(multiplier)});
-  }
-  return {{"margin", number(certificate.margin)}, {"terms", terms}, {"constraints", name(certificate.constraints)}};
-}
-
-Json to_json(const CrossingSide& side) {
-  return {{"triangles", numbers(side.triangles)},
-          {"from_", number(side.from)},
-          {"to", number(side.to)},
-          {"widest", number(side.widest)},
-          {"angle_deg", number(side.angle_deg)}};
-}
-
-Json to_json(const CrossingConflict& c) {
-  return {{"p", number(c.p)},
-          {"q", number(c.q)},
-          {"length", number(c.length)},
-          {"left", to_json(c.left)},
-          {"right", to_json(c.right)}};
-}
-
-Json to_json(const FanCenter& c) {
-  return {{"vertex", number(c.vertex)},
-          {"on_boundary", c.on_boundary},
-          {"angle_deg", number(c.angle_deg)},
-          {"shortest", number(c.shortest)},
-          {"longest", number(c.longest)},
-          {"shortest_length", number(c.shortest_length)},
-          {"longest_length", number(c.longest_length)}};
-}
-
-Json to_json(const Mesh& mesh, const Cure& c) {
-  return {{"action", name(c.action)},
-          {"text", cure_text(mesh, c)},
-          {"edge", numbers(c.edge)},
-          {"vertex", number(c.vertex)},
-          {"triangle", number(c.triangle)},
-          {"at", place(c.at)},
-          {"verified", c.verified},
-          {"conflict_only", c.conflict_only},
-          {"triangles", c.triangles},
-          {"ends_conflict", c.ends_conflict},
-          {"left_out", c.left_out},
-          {"margin", number(c.margin)},
-          {"changed", c.changed}};
-}
-
-Json to_json(const Mesh& mesh, const Reason& r) {
-  Json cures = Json::array();
-  for (const Cure& cure : r.cures) cures.push_back(to_json(mesh, cure));
-  return {{"kind", name(r.kind)},
-          {"text", reason_text(mesh, r)},
-          {"bad", numbers(r.bad)},
-          {"conflict", numbers(r.conflict)},
-          {"must_split", r.must_split ? to_json(mesh, *r.must_split) : Json(nullptr)},
-          {"certificate", to_json(r.certificate)},
-          {"margin", number(r.margin)},
-          {"each", r.each},
-          {"checked", r.checked},
-          {"crossing", r.crossing ? to_json(*r.crossing) : Json(nullptr)},
-          {"center", r.center ? to_json(*r.center) : Json(nullptr)},
-          {"free", numbers(r.free)},
-          {"least_margin", number(r.least_margin)},
-          {"at", place(r.at)},
-          {"cures_searched", r.cures_searched},
-          {"cures", cures}};
-}
-
 }  // namespace
 
 /// The answer is the explanation.
@@ -150,14 +58,7 @@ TEMPER_EXPORT(mesh_explain) int mesh_explain(const HeldMesh* held, const char* g
     SolverOutside solver;
     const Mesh& mesh = held->mesh;
     const Explanation why = or_fail(explain(mesh, solver, options));
-    Json reasons = Json::array();
-    for (const Reason& reason : why.reasons) reasons.push_back(to_json(mesh, reason));
-    answer(Json{{"triangles", why.triangles},
-                {"bad", why.bad},
-                {"verdict", name(why.verdict)},
-                {"changed", why.changed},
-                {"margin", number(why.margin)},
-                {"reasons", reasons}});
+    answer(json_of(ExplanationReport{mesh, why}));
   });
 }
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "temper/detail/optimize_table.hpp"
+#include "temper/feasibility.hpp"
 
 namespace temper::wasm {
 namespace {
@@ -133,6 +134,16 @@ void set_option(OptimizeOptions& options, const std::string& key, const Json& va
 
 // --- reports --------------------------------------------------------------------------------------------------------
 
+Json to_json(const Certificate& certificate) {
+  Json terms = Json::array();
+  for (const auto& [c, multiplier] : certificate.terms) {
+    const Json constraint = {
+        {"kind", name(c.kind)}, {"p", number(c.p)}, {"q", number(c.q)}, {"r", number(c.r)}, {"s", number(c.s)}};
+    terms.push_back({constraint, number(multiplier)});
+  }
+  return {{"margin", number(certificate.margin)}, {"terms", terms}, {"constraints", name(certificate.constraints)}};
+}
+
 /// Makes JSON of each kind of value.
 struct Maker {
   Json operator()(std::monostate) const { return nullptr; }
@@ -140,6 +151,7 @@ struct Maker {
   Json operator()(std::int64_t value) const { return value; }
   Json operator()(double value) const { return number(value); }
   Json operator()(VertexId v) const { return number(v); }
+  Json operator()(const Certificate* proof) const { return to_json(*proof); }
   Json operator()(const std::string& text) const { return text; }
   Json operator()(const NumberedText& text) const { return text.text; }
   Json operator()(const TextWithOptions& text) const { return spelled(text.text); }

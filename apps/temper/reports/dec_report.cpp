@@ -58,15 +58,13 @@ const ReportTable& table_of(const ColumnCounts*) {
   using C = ColumnCounts;
   static const ReportTable table = report_table<C>(
       "ColumnCounts", "Cells of the columns of --layers.",
-      {{"cells", "Number of cells", "", &C::cells, ShownIn::libraries, "cells in layers"},
+      {{"cells", "Number of cells", "", &C::cells, {ShownIn::libraries, "cells in layers"}},
        {"layers", "Number of layers", "", &C::layers},
-       {"active", "Number of active cells", "", &C::active, ShownIn::everywhere, "  active"},
-       {"pinched_out", "Number of cells without height", "", &C::pinched_out, ShownIn::everywhere, "  pinched out"},
-       {"inactive", "Number of inactive cells", "", &C::inactive, ShownIn::everywhere, "  inactive"},
-       {"horizontal_connections", "Number of connections between columns", "", &C::beside, ShownIn::everywhere,
-        "connections, horizontal"},
-       {"vertical_connections", "Number of connections within columns", "", &C::below, ShownIn::everywhere,
-        "connections, vertical"},
+       {"active", "Number of active cells", "", &C::active, "  active"},
+       {"pinched_out", "Number of cells without height", "", &C::pinched_out, "  pinched out"},
+       {"inactive", "Number of inactive cells", "", &C::inactive, "  inactive"},
+       {"horizontal_connections", "Number of connections between columns", "", &C::beside, "connections, horizontal"},
+       {"vertical_connections", "Number of connections within columns", "", &C::below, "connections, vertical"},
        {"volumes", "Volume of each layer", "length³", &C::volumes}});
   return table;
 }
@@ -98,11 +96,12 @@ std::string line(const std::string& label, const std::string& value) {
 std::string text_of(const ReportView& report) {
   std::string text;
   for (const ReportRow& row : report.table->rows) {
-    if (row.label.empty()) continue;
+    if (row.display.label.empty()) continue;
     const FieldValue value = row.of(report.report.get());
     const auto* number = std::get_if<double>(&value.is);
-    text += line(std::string(row.label), number != nullptr ? fmt::format("{:.9g}", *number)
-                                                           : fmt::format("{}", std::get<std::int64_t>(value.is)));
+    text +=
+        line(std::string(row.display.label),
+             number != nullptr ? fmt::format("{:.9g}", *number) : fmt::format("{}", std::get<std::int64_t>(value.is)));
   }
   return text;
 }
@@ -124,18 +123,17 @@ std::string columns_text(const ColumnCounts& columns) {
 
 const ReportTable& table_of(const DecRecord*) {
   using R = DecRecord;
-  constexpr ShownIn kEverywhere = ShownIn::everywhere;
-  static const ReportTable table = operators_table<R>(
-      "Operators", "temper operators IN -o FOLDER --json",
-      {{"cell_area_sum", "Sum of the power cells' areas", "length²", [](const R& r) { return count(r.cells).area; },
-        kEverywhere, "sum of the power cells' areas"}},
-      {{"cell_polygons", "Number of polygons of power cells", "", [](const R& r) { return r.cells.n_polygons(); },
-        kEverywhere, "polygons of power cells"},
-       {"divided_cells", "Number of cells with several polygons", "", [](const R& r) { return count(r.cells).divided; },
-        kEverywhere, "  cells of several"},
-       {"empty_cells", "Number of cells outside of the domain", "", [](const R& r) { return count(r.cells).empty; },
-        kEverywhere, "  cells outside of the domain"},
-       {"columns", "With --layers", "", columns_of, ShownIn::if_any}});
+  static const ReportTable table =
+      operators_table<R>("Operators", "temper operators IN -o FOLDER --json",
+                         {{"cell_area_sum", "Sum of the power cells' areas", "length²",
+                           [](const R& r) { return count(r.cells).area; }, "sum of the power cells' areas"}},
+                         {{"cell_polygons", "Number of polygons of power cells", "",
+                           [](const R& r) { return r.cells.n_polygons(); }, "polygons of power cells"},
+                          {"divided_cells", "Number of cells with several polygons", "",
+                           [](const R& r) { return count(r.cells).divided; }, "  cells of several"},
+                          {"empty_cells", "Number of cells outside of the domain", "",
+                           [](const R& r) { return count(r.cells).empty; }, "  cells outside of the domain"},
+                          {"columns", "With --layers", "", columns_of, ShownIn::if_any}});
   return table;
 }
 

@@ -152,36 +152,12 @@ Json fields_json(const std::vector<FieldErrors>& fields, Shown shown) {
   return {{"fields", std::move(list)}, {"mean", std::move(means)}};
 }
 
-Json system_json(const ErrorSystem& system) {
-  return {{"unknowns", system.unknowns},
-          {"m_matrix", system.m_matrix},
-          {"positive_definite", system.definite},
-          {"singular", system.singular},
-          {"negative", system.negative},
-          {"merged", system.merged},
-          {"largest_over_median", number_json(system.largest_over_median)},
-          {"condition", system.condition ? number_json(*system.condition) : Json(nullptr)}};
-}
-
 /// A row of both meshes: the mesh itself first.
 std::string problem_row(const ProblemRecord& record, const std::string& label,
                         const std::function<std::string(const DiffusionErrors&)>& value) {
   std::vector<std::string> cells = {value(record.errors)};
   if (record.reference) cells.push_back(value(*record.reference));
   return row_text(label, cells);
-}
-
-Json problem_report_json(const DiffusionErrors& e) {
-  const auto norms = [](const ErrorNorms& n) { return Json{{"l2", number_json(n.l2)}, {"max", number_json(n.max)}}; };
-  Json json;
-  json["vertex"] = norms(e.vertex);
-  json["cell"] = norms(e.cell);
-  json["reference"] = norms(e.reference);
-  json["matrices"] = {{"vertex", system_json(e.vertex_system)}, {"cell", system_json(e.cell_system)}};
-  json["refinements"] = e.refinements;
-  json["least"] = e.least;
-  json["largest"] = e.largest;
-  return json;
 }
 
 }  // namespace
@@ -210,9 +186,8 @@ std::string problem_json(const ProblemRecord& record) {
   Json json;
   json["schema"] = kSchema;
   json["mesh"] = record.path;
-  json["problem"] = problem_report_json(record.errors);
-  if (record.reference)
-    json["against"] = {{"mesh", record.against}, {"problem", problem_report_json(*record.reference)}};
+  json["problem"] = json_of(record.errors);
+  if (record.reference) json["against"] = {{"mesh", record.against}, {"problem", json_of(*record.reference)}};
   return dump(json);
 }
 
@@ -269,17 +244,8 @@ std::string error_comparison_text(const ErrorReport& before, const ErrorReport& 
 }
 
 Json error_report_json(const ErrorReport& report) {
-  Json json = {
-      {"vertices", report.vertices},
-      {"edges", report.edges},
-      {"triangles", report.triangles},
-      {"not_well_centered", report.not_well_centered},
-      {"non_regular_edges", report.non_regular_edges},
-      {"negative_boundary_duals", report.negative_boundary_duals},
-      {"negative_star0", report.negative_star0},
-      {"frame", {{"center", {report.frame.center.x, report.frame.center.y}}, {"half_size", report.frame.half_size}}},
-      {"matrices", {{"poisson", system_json(report.poisson)}, {"flux", system_json(report.flux)}}},
-      {"errors", fields_json(report.fields, Shown::errors)}};
+  Json json = json_of(report);
+  json["errors"] = fields_json(report.fields, Shown::errors);
   if (report.levels.empty()) return json;
   Json levels = Json::array();
   for (const ErrorLevel& level : report.levels) {
@@ -296,18 +262,9 @@ Json error_report_json(const ErrorReport& report) {
 }
 
 Json error_report_json(const tets::ErrorReport& report) {
-  const auto& [center, half_size] = report.frame;
-  return {{"vertices", report.vertices},
-          {"edges", report.edges},
-          {"faces", report.faces},
-          {"tetrahedra", report.tetrahedra},
-          {"not_well_centered", report.not_well_centered},
-          {"non_regular_faces", report.non_regular_faces},
-          {"negative_boundary_duals", report.negative_boundary_duals},
-          {"negative_star0", report.negative_star0},
-          {"frame", {{"center", {center.x, center.y, center.z}}, {"half_size", half_size}}},
-          {"matrices", {{"poisson", system_json(report.poisson)}, {"flux", system_json(report.flux)}}},
-          {"errors", fields_json(report.fields, Shown::errors)}};
+  Json json = json_of(report);
+  json["errors"] = fields_json(report.fields, Shown::errors);
+  return json;
 }
 
 namespace {

@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "console.hpp"
 #include "files/input.hpp"
 #include "reports/json_of.hpp"
 #include "reports/reports.hpp"
-#include "temper/detail/certificate_io.hpp"
-#include "temper/detail/geometry.hpp"
 
 namespace temper::app {
 namespace {
@@ -165,105 +162,6 @@ std::string section(const Section& kind, const Explanation& e, const Input& inpu
   return text;
 }
 
-class JsonWriter {
- public:
-  explicit JsonWriter(const Input& input) : input_(input), names_(nullptr, input.points, input.mesh().n_vertices()) {}
-
-  [[nodiscard]] Json reason(const Reason& r) const {
-    Json json;
-    json["kind"] = name(r.kind);
-    json["at"] = {r.at.x, r.at.y};
-    json["triangles"] = triangles(r.bad);
-    json["least_margin"] = number(r.least_margin);
-    json["conflict"] = triangles(r.conflict);
-    json["margin"] = number(r.margin);
-    json["margin_of"] = r.checked;
-    json["free"] = vertices(r.free);
-    json["crossing"] = r.crossing ? crossing(*r.crossing) : Json(nullptr);
-    json["center"] = r.center ? center(*r.center) : Json(nullptr);
-    json["must_split"] = r.must_split ? must_split(*r.must_split) : Json(nullptr);
-    json["certificate"] = r.certificate.terms.empty()
-                              ? Json(nullptr)
-                              : Json::parse(io::certificate_to_json(r.certificate, input_.points));
-    json["cures_searched"] = r.cures_searched;
-    json["cures"] = Json::array();
-    for (const Cure& c : r.cures) json["cures"].push_back(cure(c));
-    json["text"] = reason_text(input_.mesh(), r, &names_);
-    return json;
-  }
-
- private:
-  static Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-  [[nodiscard]] std::size_t point(VertexId v) const {
-    return input_.points.empty() ? std::size_t{v.index} : input_.points[v.index];
-  }
-  [[nodiscard]] Json vertices(const std::vector<VertexId>& ids) const {
-    Json json = Json::array();
-    for (const VertexId v : ids) json.push_back(point(v));
-    return json;
-  }
-  static Json triangles(const std::vector<TriangleId>& ids) {
-    Json json = Json::array();
-    for (const TriangleId t : ids) json.push_back(t.index);
-    return json;
-  }
-  [[nodiscard]] Json side(const CrossingSide& s) const {
-    return {{"triangles", triangles(s.triangles)},
-            {"from", number(s.from)},
-            {"to", number(s.to)},
-            {"widest_at", point(s.widest)},
-            {"angle_deg", s.angle_deg}};
-  }
-  [[nodiscard]] Json must_split(const EdgeConflict& c) const {
-    const VertexId u = input_.mesh().origin(c.edge), v = input_.mesh().target(c.edge);
-    const Space& space = input_.mesh().space();
-    const WeightedPoint p = input_.mesh().point(u), q = input_.mesh().point(v);
-    const double l = space.is_plane() ? length(q.position() - p.position())
-                                      : space.radius() * arc_length(as_vector(p), as_vector(q));
-    return {{"edge", {point(u), point(v)}},
-            {"length", l},
-            {"near", {point(c.near_u), point(c.near_v)}},
-            {"within", {c.a * l, c.b * l}},
-            {"sum", c.sum}};
-  }
-  [[nodiscard]] Json crossing(const CrossingConflict& c) const {
-    return {{"edge", {point(c.p), point(c.q)}}, {"length", c.length}, {"left", side(c.left)}, {"right", side(c.right)}};
-  }
-  [[nodiscard]] Json center(const FanCenter& c) const {
-    return {{"vertex", point(c.vertex)},
-            {"on_boundary", c.on_boundary},
-            {"angle_deg", c.angle_deg},
-            {"shortest_edge", {point(c.vertex), point(c.shortest)}},
-            {"shortest_length", c.shortest_length},
-            {"longest_edge", {point(c.vertex), point(c.longest)}},
-            {"longest_length", c.longest_length}};
-  }
-  [[nodiscard]] Json cure(const Cure& c) const {
-    using Action = Cure::Action;
-    const bool placed =
-        c.action != Action::find_weights && c.action != Action::optimize && c.action != Action::flip_edge;
-    Json json;
-    json["action"] = name(c.action);
-    json["edge"] = c.edge.empty() ? Json(nullptr) : vertices(c.edge);
-    json["vertex"] = c.vertex.valid() ? Json(point(c.vertex)) : Json(nullptr);
-    json["triangle"] = c.triangle.valid() ? Json(c.triangle.index) : Json(nullptr);
-    json["at"] = placed ? Json({c.at.x, c.at.y}) : Json(nullptr);
-    json["verified"] = c.verified;
-    json["conflict_only"] = c.conflict_only;
-    json["ends_conflict"] = c.ends_conflict;
-    json["margin"] = c.verified ? number(c.margin) : Json(nullptr);
-    json["margin_of"] = c.triangles;
-    json["left_out"] = c.left_out;
-    json["text"] = cure_text(input_.mesh(), c, &names_);
-    const std::string how = command(input_.mesh(), c);
-    json["command"] = how.empty() ? Json(nullptr) : Json(how);
-    return json;
-  }
-
-  const Input& input_;
-  VertexNames names_;
-};
-
 }  // namespace
 
 std::string explanation_text(const Explanation& e, const Input& input, std::size_t limit, const TextStyle& style) {
@@ -277,15 +175,16 @@ std::string explanation_text(const Explanation& e, const Input& input, std::size
 }
 
 std::string explanation_json(const Explanation& e, const Input& input) {
-  const JsonWriter writer(input);
-  Json json;
-  json["schema"] = kSchema;
-  json["triangles"] = e.triangles;
-  json["bad"] = e.bad;
-  json["verdict"] = name(e.verdict);
-  json["weights_changed"] = e.verdict == Feasibility::feasible ? Json(e.changed) : Json(nullptr);
-  json["reasons"] = Json::array();
-  for (const Reason& reason : e.reasons) json["reasons"].push_back(writer.reason(reason));
+  const VertexNames names(nullptr, input.points, input.mesh().n_vertices());
+  Json json = {{"schema", kSchema}};
+  json.update(json_of(ExplanationReport{input.mesh(), e, &names}, input.points));
+  for (std::size_t i = 0; i < e.reasons.size(); ++i) {
+    Json& cures = json["reasons"][i]["cures"];
+    for (std::size_t k = 0; k < cures.size(); ++k) {
+      const std::string how = command(input.mesh(), e.reasons[i].cures[k]);
+      cures[k]["command"] = how.empty() ? Json(nullptr) : Json(how);
+    }
+  }
   return dump(json);
 }
 

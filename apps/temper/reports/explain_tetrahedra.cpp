@@ -66,39 +66,6 @@ std::string paragraph(const TetInput& input, const tets::Reason& reason, std::si
   return text + blank + "- Try: " + command(reason.cure) + "\n";
 }
 
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json to_json(Vec3 p) { return {finite_or_null(p.x), finite_or_null(p.y), finite_or_null(p.z)}; }
-
-Json to_json(const TetInput& input, const tets::Reason& reason) {
-  const auto point = [&](VertexId v) { return input.points.empty() ? std::size_t{v.index} : input.points[v.index]; };
-  const auto points = [&](std::span<const VertexId> vertices) {
-    Json json = Json::array();
-    for (const VertexId v : vertices) json.push_back(point(v));
-    return json;
-  };
-  const auto [a, b, c, d] = input.mesh().points(reason.tetrahedron);
-  Json faces = Json::array();
-  for (const tets::FaceHeight& face : reason.faces) {
-    faces.push_back({{"vertices", points(face.vertices)},
-                     {"boundary", face.boundary},
-                     {"h", finite_or_null(face.h)},
-                     {"h_over_l", finite_or_null(face.h_over_l)},
-                     {"outside", face.outside},
-                     {"crossed", face.crossed}});
-  }
-  return {{"tetrahedron", reason.tetrahedron.index},
-          {"vertices", points(reason.vertices)},
-          {"weights", {a.w, b.w, c.w, d.w}},
-          {"at", to_json(reason.at)},
-          {"orthocenter", to_json(reason.orthocenter)},
-          {"h_over_l", finite_or_null(reason.h_over_l)},
-          {"dihedral_deg", finite_or_null(reason.dihedral_deg)},
-          {"faces", std::move(faces)},
-          {"all_on_boundary", reason.all_on_boundary},
-          {"text", renumber(reason.why, [&](VertexId v) { return std::to_string(point(v)); })},
-          {"command", command(reason.cure)}};
-}
-
 }  // namespace
 
 std::string explanation_text(const tets::Explanation& e, const TetInput& input, const TextStyle& style) {
@@ -114,15 +81,9 @@ std::string explanation_text(const tets::Explanation& e, const TetInput& input, 
 }
 
 std::string explanation_json(const tets::Explanation& e, const TetInput& input) {
-  Json json;
-  json["schema"] = kSchema;
-  json["tetrahedra"] = e.quality.tetrahedra;
-  json["bad"] = e.bad;
-  json["verdict"] = name(e.verdict());
-  json["weights_changed"] = e.verdict() == Feasibility::feasible ? Json(e.weights->moved) : Json(nullptr);
-  json["all_on_boundary"] = e.all_on_boundary;
-  json["reasons"] = Json::array();
-  for (const tets::Reason& reason : e.reasons) json["reasons"].push_back(to_json(input, reason));
+  Json json = {{"schema", kSchema}};
+  json.update(json_of(tets::ExplanationReport{input.mesh(), e}, input.points));
+  for (std::size_t i = 0; i < e.reasons.size(); ++i) json["reasons"][i]["command"] = command(e.reasons[i].cure);
   return dump(json);
 }
 

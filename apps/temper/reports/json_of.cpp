@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "files/input.hpp"
+#include "temper/detail/certificate_io.hpp"
 
 namespace temper::app {
 namespace {
@@ -29,6 +30,9 @@ struct Writer {
     return renumber(text.text, [this](VertexId v) { return std::to_string(point(v)); });
   }
   Json operator()(VertexId v) const { return item(v); }
+  Json operator()(const Certificate* proof) const {
+    return proof->terms.empty() ? Json(nullptr) : Json::parse(io::certificate_to_json(*proof, points));
+  }
   template <class T>
   Json operator()(std::span<const T> values) const {
     Json list = Json::array();
@@ -43,9 +47,9 @@ struct Writer {
   Json operator()(const ReportView& view) const {
     Json json = Json::object();
     for (const ReportRow& row : view.table->rows) {
-      if (row.shown == ShownIn::libraries) continue;
+      if (row.display.shown == ShownIn::libraries) continue;
       const FieldValue value = row.of(view.report.get());
-      if (row.shown != ShownIn::if_any || !std::holds_alternative<std::monostate>(value.is))
+      if (row.display.shown != ShownIn::if_any || !std::holds_alternative<std::monostate>(value.is))
         json[std::string(row.key)] = std::visit(*this, value.is);
     }
     return json;

@@ -6,12 +6,17 @@
 #include "reports/json_of.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#ifdef TEMPER_WITH_ERRORS
+#include "temper/errors.hpp"
+#include "temper/tets/errors.hpp"
+#endif
 
 namespace temper::app {
 namespace {
 
 std::string_view word(FieldType::Kind kind) {
-  constexpr std::string_view kNames[] = {"flag", "count", "whole", "number", "text", "vertex", "element", "record"};
+  constexpr std::string_view kNames[] = {"flag",   "count",   "whole",       "number", "text",
+                                         "vertex", "element", "certificate", "record"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -49,7 +54,7 @@ class Tables {
       const Json field = {{"key", row.key},
                           {"sentence", row.sentence},
                           {"unit", row.unit},
-                          {"shown", word(row.shown)},
+                          {"shown", word(row.display.shown)},
                           {"type", json_of_type(row.type)}};
       fields.push_back(field);
     }
@@ -70,7 +75,10 @@ void add_all(Tables& tables) {
 std::string report_tables_json() {
   Tables tables;
   add_all<Quality, tets::Quality, OptimizeReport, tets::OptimizeReport, Progress, TraceEvent, io::DataReport, Outcome,
-          DecSummary, tets::DecSummary, DecRecord, TetDecRecord>(tables);
+          DecSummary, tets::DecSummary, DecRecord, TetDecRecord, ExplanationReport, tets::ExplanationReport>(tables);
+#ifdef TEMPER_WITH_ERRORS
+  add_all<ErrorReport, tets::ErrorReport, DiffusionErrors>(tables);
+#endif
   tables.add(table_for_tetrahedra(static_cast<const io::DataReport*>(nullptr)));
   return dump(tables.list());
 }

@@ -24,6 +24,8 @@
 
 namespace temper {
 
+struct ReportTable;
+
 /// An edge u → v with contradictory vertices: one requires that the dual crosses it near u, another near v.
 struct EdgeConflict {
   /// Least part of the edge in each piece of a split: a shorter piece would soon need the next split.
@@ -37,6 +39,12 @@ struct EdgeConflict {
   /// Part of the way from u: the middle between a and 1 − b; each piece is at least kLeastPiece.
   double split_at = 0.5;
 };
+/// A conflict as a report, with the mesh of its edge.
+struct EdgeConflictReport {
+  const Mesh& mesh;
+  const EdgeConflict& conflict;
+};
+[[nodiscard]] const ReportTable& table_of(const EdgeConflictReport*);
 
 /// Returns the conflict of one edge if a + b ≤ up_to, decided exactly in the range of is_exact_coordinate. The edge may
 /// be on the boundary, constrained or neither.

@@ -29,6 +29,7 @@
 
 namespace temper {
 
+struct Certificate;
 struct ReportTable;
 
 /// The type of a field: a value, or a list of such values, or a list of lists.
@@ -41,7 +42,8 @@ struct FieldType {
     text,
     vertex,   ///< Number of a vertex; invalid: there is none
     element,  ///< Number of a triangle, a tetrahedron or a halfedge; −1: there is none
-    record,   ///< Report with a table of its own
+    certificate,
+    record,  ///< Report with a table of its own
   };
   Kind kind = Kind::number;
   bool optional = false;                     ///< The value may be absent
@@ -76,7 +78,7 @@ struct FieldList {
 struct FieldValue {
   std::variant<std::monostate, bool, std::int64_t, double, std::string, NumberedText, TextWithOptions, VertexId,
                std::span<const VertexId>, std::span<const TriangleId>, std::span<const std::size_t>,
-               std::span<const double>, FieldList, ReportView>
+               std::span<const double>, const Certificate*, FieldList, ReportView>
       is;
 };
 
@@ -88,6 +90,16 @@ enum class ShownIn {
   if_any,     ///< Everywhere, but JSON has the key only if there is a value
 };
 
+/// Where a field is shown, and how.
+struct Display {
+  ShownIn shown = ShownIn::everywhere;
+  std::string_view label = {};  ///< Label in tables for people; empty: these do not have the field
+
+  Display() = default;
+  Display(ShownIn where, std::string_view text = {}) : shown(where), label(text) {}  // NOLINT: a row names either
+  Display(const char* text) : label(text) {}                                         // NOLINT
+};
+
 /// A row of the table of a report.
 struct ReportRow {
   std::string_view key;       ///< Name in JSON, Python and npm
@@ -95,8 +107,7 @@ struct ReportRow {
   std::string_view unit;      ///< "s", "length", "degrees"; or empty
   FieldType type;
   std::function<FieldValue(const void* report)> of;
-  ShownIn shown = ShownIn::everywhere;
-  std::string_view label = {};  ///< Label in tables for people; empty: these do not have it
+  Display display = {};
 };
 
 /// The table of a report. Without a name it is a dictionary, whose values are all of one type.
@@ -157,6 +168,13 @@ template <class Tag>
 struct FieldTraits<Id<Tag>> {
   static FieldType type() { return {.kind = FieldType::Kind::element}; }
   static FieldValue value(Id<Tag> id) { return {id.valid() ? std::int64_t{id.index} : std::int64_t{-1}}; }
+};
+
+/// A proof, which each front end writes in its own form.
+template <>
+struct FieldTraits<Certificate> {
+  static FieldType type() { return {.kind = FieldType::Kind::certificate}; }
+  static FieldValue value(const Certificate& certificate) { return {&certificate}; }
 };
 
 template <class T>
@@ -263,8 +281,7 @@ template <class T>
 template <class Report>
 struct Field : ReportRow {
   template <class Of>
-  Field(std::string_view name, std::string_view meaning, std::string_view in, Of member,
-        ShownIn where = ShownIn::everywhere, std::string_view text = {})
+  Field(std::string_view name, std::string_view meaning, std::string_view in, Of member, Display how = {})
       : ReportRow{name,
                   meaning,
                   in,
@@ -276,8 +293,7 @@ struct Field : ReportRow {
                     else
                       return owned_value(std::invoke(member, whole));
                   },
-                  where,
-                  text} {}
+                  how} {}
 };
 
 /// The table of a report, from its rows.

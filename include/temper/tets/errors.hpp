@@ -27,6 +27,7 @@ struct FieldFrame {
   double half_size = 1;  ///< > 0 [length]
   friend bool operator==(const FieldFrame&, const FieldFrame&) = default;
 };
+[[nodiscard]] const ReportTable& table_of(const FieldFrame*);
 /// The frame of the bounding box of the vertices: its longest side goes from −1 to 1.
 [[nodiscard]] FieldFrame field_frame(const TetMesh& mesh);
 
@@ -47,6 +48,7 @@ struct ErrorReport {
   ErrorSystem poisson, flux;
   std::vector<FieldErrors> fields;
 };
+[[nodiscard]] const ReportTable& table_of(const ErrorReport*);
 
 /// Measures a mesh. Errors: no tetrahedra, unknown fields, a frame of zero size. Two sparse factorizations: O(n²).
 [[nodiscard]] Expected<ErrorReport> measure_errors(const TetMesh& mesh, const MeasureErrorsOptions& options = {});

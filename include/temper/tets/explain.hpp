@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct FaceHeight {
   bool crossed = false;  ///< The orthocenter of the face is strictly inside it, exact
 };
 
+[[nodiscard]] const ReportTable& table_of(const FaceHeight*);
+
 /// A change that may make tetrahedra well-centered. It is not tried.
 enum class Cure {
   weights,         ///< find_weights(): weights of the whole mesh exist
@@ -32,6 +35,7 @@ enum class Cure {
   split_boundary,  ///< optimize() with new vertices on the boundary
 };
 [[nodiscard]] std::string_view name(Cure cure);
+[[nodiscard]] std::span<const std::string_view> words_of(Cure);
 
 /// A tetrahedron that is not well-centered.
 struct Reason : WorstTet {
@@ -59,6 +63,13 @@ struct Explanation {
   /// What may cure a bad tetrahedron.
   [[nodiscard]] Cure cure(bool all_corners_on_boundary) const;
 };
+
+/// An explanation with its mesh, for the front ends.
+struct ExplanationReport {
+  const TetMesh& mesh;
+  const Explanation& explanation;
+};
+[[nodiscard]] const ReportTable& table_of(const ExplanationReport*);
 
 /// Explains each tetrahedron that is not well-centered. Signs rest on exact predicates, and a verdict on
 /// check_certificate(). Errors: those of find_weights(). O(n), and a linear program of the whole mesh.

@@ -39,16 +39,9 @@ struct OptimizeHooks {
   BestListener best_so_far = {};                          ///< Listener that may get each new best mesh
 };
 
-struct OptimizeReport {
-  Stopped stopped = Stopped::converged;
-  int sweeps = 0;
-  double seconds = 0;           ///< Time of the optimization alone [s]
-  double objective_before = 0;  ///< Energy of the input at the least γ, or its HOT energy
-  double objective_after = 0;
-  std::size_t vertices_inserted = 0, vertices_removed = 0;
-  std::size_t flips = 0;             ///< Changes of connectivity without a new or removed vertex
-  Origins origins;                   ///< Parts of the result in the input
-  std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input
+/// The objective is the energy at the least γ, or the HOT energy.
+struct OptimizeReport : RunReport {
+  Origins origins;  ///< Parts of the result in the input
 };
 [[nodiscard]] const ReportTable& table_of(const OptimizeReport*);
 

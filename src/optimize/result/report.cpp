@@ -90,14 +90,6 @@ IdVector<VertexId, VertexId> numbers_of(const NearbyCopy& near) {
   return numbers;
 }
 
-/// Counts removed and inserted vertices.
-void count_changes(std::size_t n_input_vertices, OptimizeReport& report) {
-  report.vertices_removed = report.vertices_inserted = 0;
-  if (report.vertices.empty()) return;
-  for (const VertexId v : report.vertices) report.vertices_inserted += v.valid() ? 0 : 1;
-  report.vertices_removed = n_input_vertices - (report.vertices.size() - report.vertices_inserted);
-}
-
 /// Says whether flips alone improve a returned input. Edges that hidden vertices keep irregular do not count.
 bool lacks_flips(const MeshScore& input, const Settings& settings, const RunFacts& facts) {
   const Policy& policy = settings.policy;
@@ -106,6 +98,13 @@ bool lacks_flips(const MeshScore& input, const Settings& settings, const RunFact
 }
 
 }  // namespace
+
+void RunReport::count_vertices(std::size_t n_input_vertices, const IdVector<VertexId, VertexId>& vertices) {
+  vertices_removed = vertices_inserted = 0;
+  if (vertices.empty()) return;
+  for (const VertexId v : vertices) vertices_inserted += v.valid() ? 0 : 1;
+  vertices_removed = n_input_vertices - (vertices.size() - vertices_inserted);
+}
 
 std::span<const std::string_view> words_of(Stopped) {
   static constexpr std::string_view kNames[] = {"converged", "max_sweeps", "max_outer",   "time_limit",
@@ -209,7 +208,7 @@ void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd
   report.size.before = end.of_input.size;
   report.size.after = is_new ? result.size : end.of_input.size;
   report.vertices = std::move(result.vertices);
-  count_changes(input.n_vertices(), report);
+  report.count_vertices(input.n_vertices(), report.vertices);
   if (is_new) {
     if (settings.hooks.viewer) settings.hooks.viewer(result.work.mesh);
     input.replace(std::move(result.work));

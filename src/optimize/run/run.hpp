@@ -79,11 +79,7 @@ class Run : public RunOf<OptimizeHooks, OptimizeReport> {
   /// Stops all ranks if rank 0 must stop.
   void sync_stop();
 
-  void count(const Flipper::Changes& changes) {
-    report.flips += changes.flips;
-    report.vertices_removed += changes.removed;
-    report.vertices_inserted += changes.inserted;
-  }
+  void count(const Flipper::Changes& changes) { report.flips += changes.flips; }
 
   RunFacts facts;
   std::optional<std::size_t> n_vertices;     ///< of the mesh, for the progress of a search for fewer

@@ -223,11 +223,9 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
 
   OptimizeReport end() {
     Draft best = *std::move(best_.kept);
-    const std::size_t kept = count_kept(best);
-    report.vertices_inserted = best.mesh.n_vertices() - kept;
-    report.vertices_removed = n_before_ - kept;
     report.flips = best.flips;
     report.origins = origins_of(best);
+    report.count_vertices(n_before_, report.origins.vertices);
     report.objective_after = objective_of(best.mesh);
     result_ = std::move(best.mesh);
     report.seconds = seconds();

@@ -5,6 +5,7 @@
 
 #include "dec/coefficient_rows.hpp"
 #include "quality/measure_rows.hpp"
+#include "report/run_rows.hpp"
 #include "temper/detail/report.hpp"
 #include "temper/tets/operators.hpp"
 #include "temper/tets/optimize.hpp"
@@ -51,49 +52,37 @@ const ReportTable& table_of(const Quality*) {
 
 namespace {
 
-const std::vector<VertexId> kNoVertices;
+const std::vector<VertexId>& no_vertices(const OptimizeReport&) {
+  static const std::vector<VertexId> none;
+  return none;
+}
+const IdVector<VertexId, VertexId>& vertices_of(const OptimizeReport& report) { return report.origins.vertices; }
 
-/// The mesh of tetrahedra is the best one of the history.
-std::size_t least_bad(const OptimizeReport& report) {
-  const auto fewer = [](const SweepRecord& a, const SweepRecord& b) { return a.bad < b.bad; };
-  return std::min_element(report.history.begin(), report.history.end(), fewer)->bad;
+/// The numbers of bad tetrahedra in the history, whose best mesh is the result.
+std::size_t bad_before(const OptimizeReport& report) { return report.history.empty() ? 0 : report.history[0].bad; }
+std::size_t bad_after(const OptimizeReport& report) {
+  std::size_t least = bad_before(report);
+  for (const SweepRecord& record : report.history) least = std::min(least, record.bad);
+  return least;
+}
+Objective objective_of(const OptimizeReport& report) {
+  return report.history.empty() ? Objective::energy : report.history.back().objective;
 }
 
 }  // namespace
 
 const ReportTable& table_of(const OptimizeReport*) {
   using R = OptimizeReport;
-  static const ReportTable table = report_table<R>(
-      "TetOptimizeReport", "The result of ``optimize``.",
-      {{"sweeps", "Number of sweeps", "", &R::sweeps},
-       {"seconds", "Time of the optimization alone", "s", &R::seconds},
-       {"stopped", "Reason for the end of the run", "", &R::stopped},
-       {"objective", "Objective that the run lowered", "",
-        [](const R& r) -> const Objective& {
-    return r.history.back().objective; }, ShownIn::libraries},
-       {"objective_before", "Energy of the input at the least γ, or its HOT energy", "", &R::objective_before},
-       {"objective_after", "The same of the result", "", &R::objective_after},
-       {"vertices_removed", "Number of vertices of the input that were removed", "", &R::vertices_removed},
-       {"hidden_vertices", "None", "", [](const R&) -> const std::vector<VertexId>& {
-    return kNoVertices; },
-        ShownIn::libraries},
-       {"vertices_inserted", "Number of new vertices", "", &R::vertices_inserted},
-       {"flips", "Changes of connectivity without a new or removed vertex", "", &R::flips},
-       {"vertices", "Number of each vertex in the input, −1 for inserted ones", "",
-        [](const R& r) -> const auto& { return r.origins.vertices;
-}
-, ShownIn::libraries
-}  // namespace temper::tets
-,
-    {"bad_before", "Number of tetrahedra of the input that are not well-centered", "",
-     [](const R& r) { return r.history.front().bad; }, ShownIn::libraries},
-    {"bad_after", "The same number of the result", "", least_bad, ShownIn::libraries},
-    {"size", "None", "", [](const R&) { return std::optional<SizeChange>(); }, ShownIn::libraries},
-    {"notes", "None", "", [](const R&) { return std::vector<std::string>(); }, ShownIn::libraries}, {
-  "history", "One record per sweep; history[0] is the input", "", &R::history, ShownIn::by_key
-}
-});
-return table;
+  constexpr ShownIn kLibraries = ShownIn::libraries;
+  static const ReportTable table = run_table<R>(
+      "TetOptimizeReport", {"objective", "Objective that the run lowered", "", objective_of, kLibraries},
+      {"hidden_vertices", "None", "", no_vertices, kLibraries},
+      {{"vertices", "Number of each vertex in the input, −1 for inserted ones", "", vertices_of, kLibraries},
+       {"bad_before", "Number of tetrahedra of the input that are not well-centered", "", bad_before, kLibraries},
+       {"bad_after", "The same number of the result", "", bad_after, kLibraries},
+       {"size", "None", "", [](const R&) { return std::optional<SizeChange>(); }, kLibraries},
+       {"notes", "None", "", [](const R&) { return std::vector<std::string>(); }, kLibraries}});
+  return table;
 }
 
 const ReportTable& table_of(const DecSummary*) {
@@ -101,28 +90,26 @@ const ReportTable& table_of(const DecSummary*) {
   static const ReportTable table = [] {
     ReportTable made = report_table<S>(
         "TetDecSummary", "A summary of the operators of tetrahedra, for a check before a solver uses them.",
-        {{"vertices", "Number of vertices", "", &S::vertices, ShownIn::everywhere, "vertices"},
-         {"edges", "Number of edges", "", &S::edges, ShownIn::everywhere, "edges"},
-         {"faces", "Number of faces", "", &S::faces, ShownIn::everywhere, "faces"},
-         {"boundary_faces", "Number of faces on the boundary", "", &S::boundary_faces, ShownIn::everywhere,
-          "  on the boundary"},
-         {"tetrahedra", "Number of tetrahedra", "", &S::tetrahedra, ShownIn::everywhere, "tetrahedra"},
+        {{"vertices", "Number of vertices", "", &S::vertices, "vertices"},
+         {"edges", "Number of edges", "", &S::edges, "edges"},
+         {"faces", "Number of faces", "", &S::faces, "faces"},
+         {"boundary_faces", "Number of faces on the boundary", "", &S::boundary_faces, "  on the boundary"},
+         {"tetrahedra", "Number of tetrahedra", "", &S::tetrahedra, "tetrahedra"},
          {"not_well_centered", "Number of tetrahedra that are not well-centered, exact", "", &S::not_well_centered,
-          ShownIn::everywhere, "  not well-centered"},
-         {"volume", "Volume of the domain", "length³", &S::volume, ShownIn::everywhere, "volume of the domain"},
-         {"star0_sum", "Sum of ★0: the volume, except for rounding", "length³", &S::star0_sum, ShownIn::everywhere,
-          "sum of star0"},
-         {"negative_star0", "Number of negative ★0", "", &S::negative_star0, ShownIn::everywhere, "negative star0"},
-         {"negative_star1", "Number of negative ★1", "", &S::negative_star1, ShownIn::everywhere, "negative star1"},
+          "  not well-centered"},
+         {"volume", "Volume of the domain", "length³", &S::volume, "volume of the domain"},
+         {"star0_sum", "Sum of ★0: the volume, except for rounding", "length³", &S::star0_sum, "sum of star0"},
+         {"negative_star0", "Number of negative ★0", "", &S::negative_star0, "negative star0"},
+         {"negative_star1", "Number of negative ★1", "", &S::negative_star1, "negative star1"},
          {"negative_star2", "Number of interior faces that are not regular, exact", "", &S::negative_star2,
-          ShownIn::everywhere, "negative star2, interior faces"},
+          "negative star2, interior faces"},
          {"negative_boundary_star2", "Number of boundary faces with the orthocenter outside the domain, exact", "",
-          &S::negative_boundary_star2, ShownIn::everywhere, "negative star2, boundary faces"},
-         {"zero_star2", "Number of interior faces that are cospherical, exact", "", &S::zero_star2, ShownIn::everywhere,
+          &S::negative_boundary_star2, "negative star2, boundary faces"},
+         {"zero_star2", "Number of interior faces that are cospherical, exact", "", &S::zero_star2,
           "zero star2, interior faces"},
-         {"min_star0", "Least ★0", "", &S::min_star0, ShownIn::everywhere, "least star0"},
-         {"min_star1", "Least ★1", "", &S::min_star1, ShownIn::everywhere, "least star1"},
-         {"min_star2", "Least ★2", "", &S::min_star2, ShownIn::everywhere, "least star2"}});
+         {"min_star0", "Least ★0", "", &S::min_star0, "least star0"},
+         {"min_star1", "Least ★1", "", &S::min_star1, "least star1"},
+         {"min_star2", "Least ★2", "", &S::min_star2, "least star2"}});
     add_coefficient_rows<S>(made);
     return made;
   }();

@@ -2,9 +2,9 @@
 import { Mesh } from './mesh.ts';
 import { answer, answerBytes, answerText, call, type Files, fromJson, listening, module, takeWritten, toJson, withFiles } from './module.ts';
 import type { EffortName, KeepName, OptimizeOptions, TargetName } from './options.ts';
-import type { DecSummary, OptimizeReport, Progress, Quality, TraceEvent } from './records.ts';
+import type { DecSummary, Explanation, OptimizeReport, Progress, Quality, TraceEvent } from './records.ts';
 import type {
-  DecComplex, DrawOptions, EnergyInfo, EnergyModel, Explanation, Format, IncidenceMatrix, OptionRow, Preset, Restoration,
+  DecComplex, DrawOptions, EnergyInfo, EnergyModel, Format, IncidenceMatrix, OptionRow, Preset, Restoration,
   Snapshot, LengthParameterLike, VertexDerivatives,
 } from './types.ts';
 import { loadSolver } from './solver.ts';
@@ -284,7 +284,7 @@ export function html_report(mesh: Mesh, { before, report, explanation, title = '
     ...(before && { before: quality(before) }),
     after: quality(mesh),
     ...run,
-    reasons: explanation?.reasons.map((r) => ({ kind: r.kind, triangles: r.bad, text: r.text, cures: r.cures.map((cure) => cure.text) })) ?? [],
+    reasons: explanation?.reasons.map((r) => ({ kind: r.kind, triangles: r.triangles, text: r.text, cures: r.cures.map((cure) => cure.text) })) ?? [],
   };
   // Infinity and NaN become null for the page.
   call('mesh_html_report', mesh.handle, before?.handle ?? 0, title, JSON.stringify(shown));

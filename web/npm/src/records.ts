@@ -1,4 +1,5 @@
 // Written by scripts/docs/records.py --write from the tables in the library. Do not edit.
+import type { Certificate } from './types.ts';
 
 /** Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins. */
 export interface Histogram {
@@ -174,7 +175,7 @@ export interface OptimizeReport {
   hidden_vertices: number[];
   /** Number of new vertices. */
   vertices_inserted: number;
-  /** Number of flips. */
+  /** Number of changes of connectivity without a new or removed vertex. */
   flips: number;
   /** Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted. */
   vertices: number[];
@@ -186,7 +187,7 @@ export interface OptimizeReport {
   size: SizeChange;
   /** Notes for the user, in sentences. */
   notes: string[];
-  /** One record per sweep; history[0] is the input, with its edges flipped to be regular. */
+  /** One record per sweep; history[0] is the input. Triangles are flipped to be regular before. */
   history: SweepRecord[];
 }
 
@@ -272,4 +273,148 @@ export interface DecSummary {
   max_transmissibility: number;
   /** Largest over median |transmissibility|. */
   max_transmissibility_over_median: number;
+}
+
+/** One side of the edge of a conflict: the interval in which well-centered triangles let the dual cross the edge. */
+export interface CrossingSide {
+  /** Triangles of this side; the first one has the edge. */
+  triangles: number[];
+  /** Begin of the interval, as a distance from the edge's first vertex, exclusive [length]. */
+  from: number;
+  /** End of the interval [length]. */
+  to: number;
+  /** Vertex of the largest angle of these triangles. */
+  widest_at: number;
+  /** Largest angle of these triangles [degrees]. */
+  angle_deg: number;
+}
+
+/** An edge whose two sides have disjoint intervals. */
+export interface CrossingConflict {
+  /** Vertices p and q of the edge. */
+  edge: [number, number];
+  /** Length of the edge [length]. */
+  length: number;
+  /** Left side of p → q. */
+  left: CrossingSide;
+  /** Right side of p → q. */
+  right: CrossingSide;
+}
+
+/** The common corner of the triangles of a fan. */
+export interface FanCenter {
+  /** The corner. */
+  vertex: number;
+  /** The corner is on the boundary. */
+  on_boundary: boolean;
+  /** Angle of the domain at a boundary vertex; else 360 [degrees]. */
+  angle_deg: number;
+  /** Shortest edge of the fan at the corner. */
+  shortest_edge: [number, number];
+  /** Its length [length]. */
+  shortest_length: number;
+  /** Longest edge of the fan at the corner. */
+  longest_edge: [number, number];
+  /** Its length [length]. */
+  longest_length: number;
+}
+
+/** An edge u → v with contradictory vertices: one requires that the dual crosses it near u, another near v. */
+export interface EdgeConflict {
+  /** Vertices u and v. */
+  edge: [number, number];
+  /** Halfedge from u to v. */
+  halfedge: number;
+  /** Length of the edge [length]. */
+  length: number;
+  /** The vertex that requires a crossing near u, and the one near v. */
+  near: [number, number];
+  /** Largest distances of these crossings from u, and from v [length]. */
+  within: [number, number];
+  /** Sum of these distances over the length: at most 1 if there is no place for the crossing. */
+  sum: number;
+  /** Part of the way from u: the middle of what is left, but at least 0.2 from each end. */
+  split_at: number;
+}
+
+/** A change that would cure a reason. */
+export interface Cure {
+  /** Kind of the change. */
+  action: 'find_weights' | 'optimize' | 'move_vertex' | 'flip_edge' | 'insert_vertex' | 'split_edge' | 'split_boundary';
+  /** Edge that is flipped or split. */
+  edge: [number, number] | null;
+  /** Vertex that is moved. */
+  vertex: number | null;
+  /** Triangle that gets a vertex. */
+  triangle: number | null;
+  /** Place of the change; on the sphere longitude and latitude [degrees]. */
+  at: [number, number] | null;
+  /** A trial on a copy succeeded: the triangles of the neighborhood then have weights that make them well-centered, checked exactly. */
+  verified: boolean;
+  /** Only the triangles of the conflict, and those that the change touches, were tested. */
+  conflict_only: boolean;
+  /** For a split: neither half of the edge must be split again, checked exactly. */
+  ends_conflict: boolean;
+  /** Best margin of h/ℓ and d/ℓ after the cure. */
+  margin: number | null;
+  /** Number of triangles that `margin` is for. */
+  margin_of: number;
+  /** Number of bad triangles nearby that belong to other conflicts and were not tested. */
+  left_out: number;
+  /** For find_weights: number of nonzero weights around the bad triangles. */
+  weights_changed: number;
+  /** The cure in one sentence. */
+  text: string;
+}
+
+/** A reason why triangles are not well-centered. */
+export interface Reason {
+  /** Kind of the reason. */
+  kind: 'split' | 'edge' | 'fan' | 'patch' | 'weights' | 'undecided';
+  /** Centroid of the worst triangle; on the sphere longitude and latitude [degrees]. */
+  at: [number, number];
+  /** Triangles that are not well-centered for this reason, worst first. */
+  triangles: number[];
+  /** Least h/ℓ or d/ℓ of these triangles as they are. */
+  least_margin: number;
+  /** For edge, fan, patch: smallest set of triangles for which no weights exist; `triangles` is a part of it. */
+  conflict: number[];
+  /** Best margin. For edge, fan, patch: of the conflict, at most 0. For weights: of the neighborhood, above 0. */
+  margin: number;
+  /** Number of triangles that `margin` is for. */
+  margin_of: number;
+  /** `margin` is the least over bad triangles, each with the triangles that touch it. */
+  each: boolean;
+  /** Corners that may move. */
+  free: number[];
+  /** Crossings, for edge, fan, and patches without closed rings. */
+  crossing: CrossingConflict | null;
+  /** Common vertex of all triangles, for edge, fan, patch, if there is one. */
+  center: FanCenter | null;
+  /** Conflict of the edge, for split. */
+  must_split: EdgeConflict | null;
+  /** Proof for edge, fan, patch; `check_certificate` accepts it. */
+  certificate: Certificate;
+  /** Cures were searched for; else `cures` has only those that need no search. */
+  cures_searched: boolean;
+  /** Cures, best first. */
+  cures: Cure[];
+  /** The reason in words. */
+  text: string;
+}
+
+/** The result of `explain`. */
+export interface Explanation {
+  /** Number of triangles. */
+  triangles: number;
+  /** Number of triangles that are not well-centered. */
+  bad: number;
+  /** Verdict on the whole mesh with its positions and connectivity. Feasible if no triangle is bad. */
+  verdict: 'feasible' | 'infeasible' | 'undecided';
+  /** For feasible: number of nonzero weights in the result of find_weights. */
+  weights_changed: number | null;
+  /** Requested margin of these weights: 0.01, or half of the best margin if that is less. */
+  margin: number;
+  /** Reasons: certified ones first, by least margin; then by least_margin. */
+  reasons: Reason[];
 }

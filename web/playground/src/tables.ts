@@ -78,7 +78,7 @@ export function showReason(section: HTMLElement, from: { explanation: Explanatio
     if (from?.said) section.append(line('p', from.said));
     return;
   }
-  const reason = from.explanation.reasons.find(({ bad }) => bad.includes(triangle));
+  const reason = from.explanation.reasons.find(({ triangles }) => triangles.includes(triangle));
   if (!reason) return;
   section.append(line('p', reason.text));
   const cures = document.createElement('ul');

@@ -1,0 +1,40 @@
+// The rows that reports on runs of triangles and of tetrahedra share.
+#pragma once
+
+#include <initializer_list>
+#include <string_view>
+
+#include "temper/detail/report.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper {
+
+/// `objective`, `hidden_vertices`: rows in between. `more`: rows before the history.
+template <class R>
+[[nodiscard]] ReportTable run_table(std::string_view name, const Field<R>& objective, const Field<R>& hidden_vertices,
+                                    std::initializer_list<Field<R>> more) {
+  ReportTable table = report_table<R>(
+      name, "The result of ``optimize``.",
+      {{"sweeps", "Number of sweeps", "", &R::sweeps},
+       {"seconds", "Time of the optimization alone", "s", &R::seconds},
+       {"stopped",
+        "Reason for the end of the run. tangled: triangles are inverted and no flips can make the mesh regular. "
+        "hidden: deferred flips hid a vertex against the policy, and the mesh is an earlier one. sweep_limit: all "
+        "sweeps for the accuracy are done, a normal end",
+        "", &R::stopped},
+       objective,
+       {"objective_before", "Objective of the input, at the final γ", "", &R::objective_before},
+       {"objective_after", "Objective of the result", "", &R::objective_after},
+       {"vertices_removed", "Number of vertices of the input that were removed", "", &R::vertices_removed},
+       hidden_vertices,
+       {"vertices_inserted", "Number of new vertices", "", &R::vertices_inserted},
+       {"flips", "Number of changes of connectivity without a new or removed vertex", "", &R::flips}});
+  table.rows.insert(table.rows.end(), more.begin(), more.end());
+  table.rows.push_back(Field<R>("history",
+                                "One record per sweep; history[0] is the input. Triangles are flipped to be regular "
+                                "before",
+                                "", &R::history, ShownIn::by_key));
+  return table;
+}
+
+}  // namespace temper
