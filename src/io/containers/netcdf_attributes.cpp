@@ -87,6 +87,41 @@ Values as_unsigned(Values values) {
       values);
 }
 
+/// How packed numbers become values, and which of them are none.
+struct Unpacking {
+  bool packed = false, is_unsigned = false;
+  double factor = 1, shift = 0;
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  bool bounds_unpacked = false;  ///< by their type, which is wider than that of the packed numbers
+  std::vector<double> fills = {};
+};
+
+template <class Raw>
+bool is_fill(Raw x, double fill, bool is_unsigned) {
+  if constexpr (std::is_floating_point_v<Raw>) {
+    return x == static_cast<Raw>(fill);
+  } else {
+    constexpr Raw kHalf = std::numeric_limits<Raw>::max() / 2 + 1;
+    constexpr double kTurn = 2.0 * static_cast<double>(kHalf);
+    return static_cast<double>(x) == (is_unsigned && fill < 0 ? fill + kTurn : fill);
+  }
+}
+
+template <class Unpacked, class Raw>
+std::vector<Unpacked> unpack(const std::vector<Raw>& from, const Unpacking& how) {
+  std::vector<Unpacked> result;
+  result.reserve(from.size());
+  for (const Raw x : from) {
+    const double value = how.packed ? how.factor * static_cast<double>(x) + how.shift : static_cast<double>(x);
+    const double compared = how.bounds_unpacked ? value : static_cast<double>(x);
+    const bool missing =
+        compared < how.low || compared > how.high ||
+        std::any_of(how.fills.begin(), how.fills.end(), [&](double fill) { return is_fill(x, fill, how.is_unsigned); });
+    result.push_back(missing ? std::numeric_limits<Unpacked>::quiet_NaN() : static_cast<Unpacked>(value));
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> NetcdfReader::fill_values(const NetcdfVariable& v) const {
@@ -106,46 +141,22 @@ Values NetcdfReader::unpacked(const NetcdfVariable& v) const {
   const double factor = scale.values.empty() ? 1 : scale.values[0],
                shift = offset.values.empty() ? 0 : offset.values[0];
 
-  double low = -std::numeric_limits<double>::infinity(), high = -low;
-  bool bounds_unpacked = false;  // by their type, which is wider than that of the packed numbers
+  Unpacking how = {packed, is_unsigned, factor, shift};
   const auto bound = [&](const char* name, std::size_t count, auto set) {
     const Numbers numbers = numbers_attribute(&v, name);
     if (numbers.values.size() != count) return;
-    bounds_unpacked = !io::is_floating(raw) && is_floating(numbers.type);
+    how.bounds_unpacked = !io::is_floating(raw) && is_floating(numbers.type);
     set(numbers.values);
   };
-  bound("valid_min", 1, [&](const auto& x) { low = x[0]; });
-  bound("valid_max", 1, [&](const auto& x) { high = x[0]; });
-  bound("valid_range", 2, [&](const auto& x) { low = x[0], high = x[1]; });
-  const std::vector<double> fills = fill_values(v);
-
-  const auto unpack = [&](const auto& from, auto zero) -> Values {
-    using Raw = ElementOf<decltype(from)>;
-    using Unpacked = decltype(zero);
-    const auto same = [&](Raw x, double fill) {
-      if constexpr (std::is_floating_point_v<Raw>) {
-        return x == static_cast<Raw>(fill);
-      } else {
-        constexpr Raw kHalf = std::numeric_limits<Raw>::max() / 2 + 1;
-        constexpr double kTurn = 2.0 * static_cast<double>(kHalf);
-        return static_cast<double>(x) == (is_unsigned && fill < 0 ? fill + kTurn : fill);
-      }
-    };
-    std::vector<Unpacked> result;
-    result.reserve(from.size());
-    for (const Raw x : from) {
-      const double value = packed ? factor * static_cast<double>(x) + shift : static_cast<double>(x);
-      const double compared = bounds_unpacked ? value : static_cast<double>(x);
-      const bool missing = compared < low || compared > high ||
-                           std::any_of(fills.begin(), fills.end(), [&](double fill) { return same(x, fill); });
-      result.push_back(missing ? std::numeric_limits<Unpacked>::quiet_NaN() : static_cast<Unpacked>(value));
-    }
-    return result;
-  };
+  bound("valid_min", 1, [&](const auto& x) { how.low = x[0]; });
+  bound("valid_max", 1, [&](const auto& x) { how.high = x[0]; });
+  bound("valid_range", 2, [&](const auto& x) { how.low = x[0], how.high = x[1]; });
+  how.fills = fill_values(v);
   const auto is_float = [](const Numbers& n) { return n.values.empty() || n.type == NC_FLOAT; };
   const bool single =
       packed ? is_float(scale) && is_float(offset) && scalar_of(raw) != Scalar::f64 : scalar_of(raw) == Scalar::f32;
-  return std::visit([&](const auto& from) { return single ? unpack(from, float{}) : unpack(from, double{}); }, raw);
+  return std::visit(
+      [&](const auto& from) { return single ? Values(unpack<float>(from, how)) : unpack<double>(from, how); }, raw);
 }
 
 }  // namespace temper::io

@@ -18,21 +18,9 @@ namespace {
 
 using Type = JsonValue::Type;
 
-JsonValue json(Type type) {
-  JsonValue value;
-  value.type = type;
-  return value;
-}
-JsonValue json(std::string string) {
-  JsonValue value = json(Type::string);
-  value.string = std::move(string);
-  return value;
-}
-JsonValue json(double number) {
-  JsonValue value = json(Type::number);
-  value.number = number;
-  return value;
-}
+JsonValue json(Type type) { return {.type = type}; }
+JsonValue json(std::string string) { return {.type = Type::string, .string = std::move(string)}; }
+JsonValue json(double number) { return {.type = Type::number, .number = number}; }
 void add(JsonValue& object, std::string_view name, JsonValue member) {
   object.names.emplace_back(name);
   object.items.push_back(std::move(member));
