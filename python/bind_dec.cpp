@@ -8,7 +8,7 @@
 #include "temper/detail/dec_io.hpp"
 #include "temper/tets/operators.hpp"
 
-TEMPER_PYTHON_NAMES(temper::io::DecFormat, "npz", "mtx", "vtu", "disv", "disu", "tough");
+TEMPER_PYTHON_NAMES(temper::io::DecFormat, "npz", "mtx", "vtu", "disv", "disu", "tough", "uge");
 
 namespace temper::python {
 namespace {

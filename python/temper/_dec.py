@@ -126,10 +126,11 @@ class _Complex(Record):
         self,
         folder: str | os.PathLike[str],
         *,
-        formats: Sequence[Literal["npz", "mtx", "vtu"]] = ("npz", "mtx", "vtu"),
+        formats: Sequence[Literal["npz", "mtx", "vtu", "tough", "uge"]] = ("npz", "mtx", "vtu"),
         threads: int | None = None,
     ) -> list[str]:
-        """Writes the operators into a folder (docs/reference/operators.md names every file and array). On an error no
+        """Writes the operators into a folder (docs/reference/operators.md names every file and array). Tetrahedra also
+        have ``MESH`` (TOUGH) and ``mesh.uge`` (PFLOTRAN): their cells are the power cells of vertices. On an error no
         file is written. Returns the paths of the files."""
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
@@ -476,13 +477,18 @@ class Columns(Record):
         self,
         folder: str | os.PathLike[str],
         *,
-        formats: Sequence[Literal["npz", "mtx", "vtu", "disv", "disu", "tough"]] = ("disv", "disu", "tough", "vtu"),
+        formats: Sequence[Literal["npz", "mtx", "vtu", "disv", "disu", "tough", "uge"]] = (
+            "disv",
+            "disu",
+            "tough",
+            "vtu",
+        ),
         threads: int | None = None,
     ) -> list[str]:
-        """Writes ``mesh.disv`` and ``mesh.disu`` (MODFLOW 6), ``MESH`` (TOUGH), and for ParaView ``columns.vtu`` and
-        the dual, into a folder (docs/reference/formats/layers.md). If there are ``groups``, tables of their cells stand
-        next to the first three: ``mesh.disv.csv`` and so on. On an error no file is written. Returns the paths of the
-        files."""
+        """Writes ``mesh.disv`` and ``mesh.disu`` (MODFLOW 6), ``MESH`` (TOUGH), ``mesh.uge`` (PFLOTRAN), and for
+        ParaView ``columns.vtu`` and the dual, into a folder (docs/reference/formats/layers.md). If there are
+        ``groups``, tables of their cells stand next to the first three: ``mesh.disv.csv`` and so on. On an error no
+        file is written. Returns the paths of the files."""
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
 

@@ -28,7 +28,8 @@ namespace fs = std::filesystem;
 
 constexpr Choice<io::DecFormat> kDecFormats[] = {{"npz", io::DecFormat::npz},   {"mtx", io::DecFormat::mtx},
                                                  {"vtu", io::DecFormat::vtu},   {"disv", io::DecFormat::disv},
-                                                 {"disu", io::DecFormat::disu}, {"tough", io::DecFormat::tough}};
+                                                 {"disu", io::DecFormat::disu}, {"tough", io::DecFormat::tough},
+                                                 {"uge", io::DecFormat::uge}};
 
 struct DecSettings {
   std::string projection;
@@ -49,8 +50,8 @@ void add_options(Command& command, DecSettings& s) {
   add_text(command, "-o,--output", "DIR", s.output, "Folder for the files. It is made if it does not exist.").require();
   add_text(command, "--format", "LIST", s.formats,
            "Formats to write, separated by commas. 'npz' is for NumPy and SciPy, 'mtx' is Matrix Market, and 'vtu' "
-           "holds the dual for ParaView. With --layers there are also 'disv' and 'disu' for MODFLOW 6, and 'tough' for "
-           "TOUGH2 and TOUGH3.")
+           "holds the dual for ParaView. With --layers there are also 'disv' and 'disu' for MODFLOW 6, 'tough' for "
+           "TOUGH2 and TOUGH3, and 'uge' for PFLOTRAN. Tetrahedra have 'tough' and 'uge', too.")
       .defaults_to([&s] { return s.formats; });
   command.group("Coefficients");
   add_coefficient(command, s.coefficient);
@@ -95,8 +96,8 @@ std::vector<io::DecFormat> parse_formats(std::string_view list) {
 
 /// Checks that options which need layers have them.
 void check_layers(const Command& command, const DecSettings& s, const std::vector<io::DecFormat>& formats) {
-  const bool wanted = std::any_of(formats.begin(), formats.end(), io::needs_columns);
-  if (wanted && s.layers.empty()) refuse_usage("operators", "--format: disv, disu and tough need --layers");
+  const bool wanted = std::ranges::any_of(formats, [](io::DecFormat format) { return io::needs_columns(format); });
+  if (wanted && s.layers.empty()) refuse_usage("operators", "--format: disv, disu, tough and uge need --layers");
   if (s.layers.empty() && command.was_given("--pinch-out"))
     print_warnings(std::vector<std::string>{"--pinch-out has no effect without --layers"});
 }
@@ -197,7 +198,6 @@ Exit run_operators(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   const std::vector<io::DecFormat> formats = parse_formats(s.formats);
-  check_layers(command, s, formats);
   expect_without(command, s.metric, "--layers");
   const io::DecKind of_triangles = s.layers.empty() ? io::DecKind::triangles : io::DecKind::columns;
   check_folder(s, formats, of_triangles);
@@ -205,7 +205,10 @@ Exit run_operators(const Arguments& arguments) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   const auto expect = [&](CellKinds cells) {
     command.expect_for(cells, s.input);
-    if (cells == Tetrahedra::cells) check_folder(s, formats, io::DecKind::tetrahedra);
+    if (cells == Tetrahedra::cells)
+      check_folder(s, formats, io::DecKind::tetrahedra);
+    else
+      check_layers(command, s, formats);
   };
   AnyInput any = read_any(s.input, {s.projection, {}, threads.get(), s.heights, expect});
   std::visit(

@@ -29,11 +29,12 @@ enum class DecFormat {
         ///< edge_midpoints.mtx
   vtu,  ///< Files dual.vtu, the power cells as polygons; dual_edges.vtu, the dual edges as lines; columns.vtu, prisms
   // These need columns:
-  disv,   ///< Files mesh.disv, MODFLOW 6's discretization by vertices; mesh.disv.csv, the cells of groups
-  disu,   ///< Files mesh.disu, MODFLOW 6's discretization by connections; mesh.disu.csv
-  tough,  ///< Files MESH, elements and connections of TOUGH2, TOUGH3 and iTOUGH2; MESH.csv
+  disv,  ///< Files mesh.disv, MODFLOW 6's discretization by vertices; mesh.disv.csv, the cells of groups
+  disu,  ///< Files mesh.disu, MODFLOW 6's discretization by connections; mesh.disu.csv
+  // These need columns, or tetrahedra, whose cells are the power cells of vertices:
+  tough,  ///< Files MESH, elements and connections of TOUGH2, TOUGH3 and iTOUGH2; of columns MESH.csv, too
+  uge,    ///< File mesh.uge, PFLOTRAN's explicit unstructured grid
 };
-[[nodiscard]] bool needs_columns(DecFormat format);
 
 enum class GroupKind {
   point,     ///< Marked points, such as wells
@@ -67,6 +68,9 @@ struct DecWriteOptions {
 
 /// A format writes one of these kinds into a folder.
 enum class DecKind { triangles, columns, tetrahedra };
+
+/// Says whether a format writes columns only.
+[[nodiscard]] bool needs_columns(DecFormat format, DecKind kind = DecKind::triangles);
 
 /// The names of the files that a format writes into its folder.
 [[nodiscard]] std::span<const std::string_view> dec_file_names(DecFormat format, DecKind kind = DecKind::triangles);

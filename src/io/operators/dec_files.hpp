@@ -85,7 +85,6 @@ void write_dec_vtu(const TetDecJob& job);
 void write_columns_vtu(const DecJob& job);
 void write_columns_disv(const DecJob& job);
 void write_columns_disu(const DecJob& job);
-void write_columns_tough(const DecJob& job);
 /// The table of the cells of groups, with the number that the format has for each cell.
 void write_groups(const DecJob& job, std::string_view file, const std::function<std::string(std::size_t)>& number);
 

@@ -2,9 +2,10 @@
 // the end.
 #include <algorithm>
 #include <cerrno>
+#include <type_traits>
 
 #include "io/disk/files.hpp"
-#include "io/operators/dec_files.hpp"
+#include "io/operators/volumes.hpp"
 
 namespace temper::io {
 namespace {
@@ -43,22 +44,30 @@ void write_all(const DecJob& job) {
   if (wants(job, DecFormat::vtu) && job.options.columns != nullptr) write_columns_vtu(job);
   if (wants(job, DecFormat::disv)) write_columns_disv(job);
   if (wants(job, DecFormat::disu)) write_columns_disu(job);
-  if (wants(job, DecFormat::tough)) write_columns_tough(job);
+  if (wants(job, DecFormat::tough)) write_volumes_tough(job, volumes_of(job));
+  if (wants(job, DecFormat::tough)) write_groups(job, "MESH.csv", tough_name);
+  if (wants(job, DecFormat::uge)) write_volumes_pflotran(job, volumes_of(job));
 }
 
 void write_all(const TetDecJob& job) {
   if (wants(job, DecFormat::npz)) write_dec_npz(job);
   if (wants(job, DecFormat::mtx)) write_dec_mtx(job, matrices_of(job.complex));
   if (wants(job, DecFormat::vtu)) write_dec_vtu(job);
+  if (wants(job, DecFormat::tough)) write_volumes_tough(job, volumes_of(job));
+  if (wants(job, DecFormat::uge)) write_volumes_pflotran(job, volumes_of(job));
 }
 
 /// `parts` are a mesh, its operators and its cells, which complete a job.
 template <class Job, class... Parts>
 std::vector<std::string> write_dec_or_throw(const std::string& name, const DecWriteOptions& options,
                                             const Parts&... parts) {
+  constexpr bool is_of_tetrahedra = std::is_same_v<Job, TetDecJob>;
+  const DecKind kind = is_of_tetrahedra ? DecKind::tetrahedra : DecKind::triangles;
   for (const DecFormat format : options.formats) {
-    if (needs_columns(format) && options.columns == nullptr)
-      fail(ErrorCode::invalid_option, "", "formats disv, disu and tough need layers");
+    if (needs_columns(format, kind) && options.columns == nullptr)
+      fail(ErrorCode::invalid_option, "",
+           is_of_tetrahedra ? "formats disv and disu are for triangles with layers"
+                            : "formats disv, disu, tough and uge need layers");
   }
   Folder folder(name);
   std::vector<std::string> written;
@@ -81,8 +90,9 @@ DecPositions positions_in(std::size_t n, At plane, const std::vector<Vec3>& sphe
 
 }  // namespace
 
-bool needs_columns(DecFormat format) {
-  return format == DecFormat::disv || format == DecFormat::disu || format == DecFormat::tough;
+bool needs_columns(DecFormat format, DecKind kind) {
+  const bool is_of_cells = format == DecFormat::tough || format == DecFormat::uge;
+  return format == DecFormat::disv || format == DecFormat::disu || (is_of_cells && kind != DecKind::tetrahedra);
 }
 
 std::span<const std::string_view> dec_file_names(DecFormat format, DecKind kind) {
@@ -103,7 +113,7 @@ std::span<const std::string_view> dec_file_names(DecFormat format, DecKind kind)
   static constexpr std::string_view kVtu[] = {"dual.vtu", "dual_edges.vtu", "columns.vtu"};
   const bool tetrahedra = kind == DecKind::tetrahedra;
   static constexpr std::string_view kDisv[] = {"mesh.disv", "mesh.disv.csv"}, kDisu[] = {"mesh.disu", "mesh.disu.csv"},
-                                    kTough[] = {"MESH", "MESH.csv"};
+                                    kTough[] = {"MESH", "MESH.csv"}, kUge[] = {"mesh.uge"};
   switch (format) {
     case DecFormat::npz:
       return std::span(kNpz).first(tetrahedra ? 8 : 6);
@@ -114,7 +124,9 @@ std::span<const std::string_view> dec_file_names(DecFormat format, DecKind kind)
     case DecFormat::disu:
       return kDisu;
     case DecFormat::tough:
-      return kTough;
+      return std::span(kTough).first(tetrahedra ? 1 : 2);
+    case DecFormat::uge:
+      return kUge;
     default:
       return std::span(kVtu).first(kind == DecKind::columns ? 3 : 2);
   }

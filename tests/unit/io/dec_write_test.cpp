@@ -97,7 +97,7 @@ TEST_F(DecFiles, EveryFormatMakesTheFilesItNamesAndNoOther) {
 TEST_F(DecFiles, TetrahedraHaveTheirFiles) {
   const tets::TetMesh mesh = test::mesh_of(test::body_centered(2));
   const tets::DecComplex complex = tets::dec_operators(mesh);
-  for (const DecFormat format : {DecFormat::npz, DecFormat::mtx, DecFormat::vtu}) {
+  for (const DecFormat format : {DecFormat::npz, DecFormat::mtx, DecFormat::vtu, DecFormat::tough, DecFormat::uge}) {
     const std::string folder = path("tets" + std::to_string(static_cast<int>(format)));
     ASSERT_TRUE(write_dec(folder, mesh, complex, {.formats = {format}}));
     const auto names = dec_file_names(format, DecKind::tetrahedra);
@@ -105,8 +105,45 @@ TEST_F(DecFiles, TetrahedraHaveTheirFiles) {
     std::sort(expected.begin(), expected.end());
     EXPECT_EQ(names_in(folder), expected);
   }
-  EXPECT_EQ(write_dec(path("none"), mesh, complex, {.formats = {DecFormat::tough}}).error().code,
-            ErrorCode::invalid_option);
+  const auto refused = write_dec(path("none"), mesh, complex, {.formats = {DecFormat::disv}});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::invalid_option);
+  EXPECT_EQ(refused.error().message, "formats disv and disu are for triangles with layers");
+}
+
+TEST_F(DecFiles, CellsOfTetrahedraFillTheMeshAndLieOnBothSidesOfTheirFaces) {
+  const tets::TetMesh mesh = test::mesh_of(test::body_centered(2));
+  const tets::DecComplex complex = tets::dec_operators(mesh);
+  ASSERT_TRUE(write_dec(path("t"), mesh, complex, {.formats = {DecFormat::tough, DecFormat::uge}}));
+  std::istringstream uge(slurp(path("t/mesh.uge")));
+  std::string word;
+  std::size_t n = 0, m = 0;
+  uge >> word >> n;
+  ASSERT_EQ(n, mesh.n_vertices());
+  double volume = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double x = 0, y = 0, z = 0, cell = 0;
+    uge >> word >> x >> y >> z >> cell;
+    EXPECT_EQ((Vec3{x, y, z}), mesh.position(VertexId(i)));
+    volume += cell;
+  }
+  double whole = 0;
+  for (const double tet : complex.volumes) whole += tet;
+  EXPECT_NEAR(volume, whole, 1e-12 * whole);
+  uge >> word >> m;
+  EXPECT_GT(m, n);
+  for (std::size_t i = 0; i < m; ++i) {
+    std::size_t a = 0, b = 0;
+    Vec3 face;
+    double area = 0;
+    uge >> a >> b >> face.x >> face.y >> face.z >> area;
+    const Vec3 from = mesh.position(VertexId(a - 1)), to = mesh.position(VertexId(b - 1));
+    EXPECT_NEAR(length(face - from) + length(to - face), length(to - from), 1e-12);
+    EXPECT_GT(area, 0);
+  }
+  EXPECT_TRUE(uge.good());
+  const std::string tough = slurp(path("t/MESH"));
+  EXPECT_EQ(static_cast<std::size_t>(std::count(tough.begin(), tough.end(), '\n')), 1 + n + 1 + 1 + m + 1);
 }
 
 TEST_F(DecFiles, TheSameBytesComeAgainAndForAnyNumberOfThreads) {

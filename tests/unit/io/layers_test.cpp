@@ -94,12 +94,12 @@ TEST_F(LayerFiles, FormatsOfColumnsWantColumnsAndWriteNothingWithout) {
   const auto written =
       write_dec(path("out"), mesh, complex, power_cells(mesh, complex), {.formats = {DecFormat::disv}});
   ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().what(), "formats disv, disu and tough need layers");
+  EXPECT_EQ(written.error().what(), "formats disv, disu, tough and uge need layers");
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
 TEST_F(LayerFiles, EveryFormatMakesTheFilesItNames) {
-  for (const DecFormat format : {DecFormat::vtu, DecFormat::disv, DecFormat::disu, DecFormat::tough}) {
+  for (const DecFormat format : {DecFormat::vtu, DecFormat::disv, DecFormat::disu, DecFormat::tough, DecFormat::uge}) {
     const auto written = write(*layers("vertex,top,bottom\n*,2,1\n"), {format});
     ASSERT_TRUE(written) << written.error().what();
     const auto names = dec_file_names(format, DecKind::columns);
@@ -145,6 +145,37 @@ TEST_F(LayerFiles, ToughHasFixedColumnsAndAllDigitsThatTheyHold) {
   EXPECT_EQ(all[10].substr(0, 30), "AAA10AAA12                   1");
   for (std::size_t i = 10; i + 1 < all.size(); ++i) EXPECT_EQ(all[i].size(), 70u) << all[i];
   EXPECT_EQ(all.back(), "");
+}
+
+TEST_F(LayerFiles, PflotranHasActiveCellsAndThePlacesWhereTheLinesOfCentersCrossFaces) {
+  ASSERT_TRUE(write(*layers("vertex,top,bottom 1,bottom 2\n*,2,0,-1\n3,2,2,-1\n"), {DecFormat::uge}));
+  std::istringstream in(slurp(path("out/mesh.uge")));
+  std::string word;
+  std::size_t n = 0;
+  in >> word >> n;
+  EXPECT_EQ(word, "CELLS");
+  EXPECT_EQ(n, 7u) << "one of eight is pinched out";
+  std::vector<Vec3> centers(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::size_t number = 0;
+    double volume = 0;
+    in >> number >> centers[i].x >> centers[i].y >> centers[i].z >> volume;
+    EXPECT_EQ(number, i + 1);
+    EXPECT_GT(volume, 0);
+  }
+  in >> word >> n;
+  EXPECT_EQ(word, "CONNECTIONS");
+  EXPECT_EQ(n, 10u);
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t a = 0, b = 0;
+    Vec3 face;
+    double area = 0;
+    in >> a >> b >> face.x >> face.y >> face.z >> area;
+    const Vec3 from = centers.at(a - 1), to = centers.at(b - 1);
+    EXPECT_NEAR(length(face - from) + length(to - face), length(to - from), 1e-12) << a << " " << b;
+    EXPECT_GT(area, 0);
+  }
+  EXPECT_TRUE(in.good());
 }
 
 }  // namespace

@@ -26,10 +26,10 @@ namespace temper::io {
 namespace {
 
 /// Physical groups: the region or tag, 0 if there is none, and the tags of further ones.
-struct Groups {
+struct GroupsOfCell {
   std::int32_t first = 0;
   std::vector<std::int32_t> further;
-  friend auto operator<=>(const Groups&, const Groups&) = default;
+  friend auto operator<=>(const GroupsOfCell&, const GroupsOfCell&) = default;
 };
 
 /// Elements of one kind, whatever their number of corners.
@@ -45,13 +45,13 @@ struct Kind {
   std::vector<std::int32_t> entities = {};  // of each element; empty: all `only_entity`
   std::int32_t only_entity = 1;
   std::vector<std::pair<std::int32_t, std::vector<double>>> further_groups = {};  // tag, and of each element: 0 outside
-  std::map<std::int32_t, Groups> groups_of_entity = {};
+  std::map<std::int32_t, GroupsOfCell> groups_of_entity = {};
   std::vector<std::int32_t> firsts = {};  // gmsh:physical:first; empty: the tags
   std::int32_t ungrouped = 0;             // the group of all elements without one
 
   [[nodiscard]] std::int32_t tag(std::size_t i) const { return tags->empty() ? 0 : (*tags)[i]; }
-  [[nodiscard]] Groups groups(std::size_t i) const {
-    Groups all = {firsts.empty() ? tag(i) : firsts[i], {}};
+  [[nodiscard]] GroupsOfCell groups(std::size_t i) const {
+    GroupsOfCell all = {firsts.empty() ? tag(i) : firsts[i], {}};
     for (const auto& [group, inside] : further_groups) {
       if (group != all.first && inside[i] != 0 && !std::isnan(inside[i])) all.further.push_back(group);
     }
@@ -92,7 +92,7 @@ void number_entities(Kind& kind) {
     kind.groups_of_entity[kind.only_entity] = kind.groups(0);
     return;
   }
-  std::map<std::pair<std::int32_t, Groups>, std::int32_t> entity_of_pair;
+  std::map<std::pair<std::int32_t, GroupsOfCell>, std::int32_t> entity_of_pair;
   const auto pair_of = [&](std::size_t i) { return std::pair(given == nullptr ? 0 : (*given)[i], kind.groups(i)); };
   for (std::size_t i = 0; i < kind.n; ++i) entity_of_pair[pair_of(i)] = 0;
   std::set<std::int32_t> taken;
@@ -163,7 +163,7 @@ class GmshWriter {
     std::array<bool, 4> has_ungrouped = {};
     for (const Kind* kind : kinds()) {
       for (std::size_t i = 0; i < kind->n; ++i) {
-        const Groups groups = kind->groups(i);
+        const GroupsOfCell groups = kind->groups(i);
         taken.insert(groups.first);
         taken.insert(groups.further.begin(), groups.further.end());
         if (groups.first == 0) has_ungrouped[static_cast<std::size_t>(kind->dimension)] = true;

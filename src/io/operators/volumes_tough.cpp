@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/operators/dec_files.hpp"
+#include "io/operators/volumes.hpp"
 #include "temper/detail/read_number.hpp"
 
 namespace temper::io {
@@ -16,13 +16,6 @@ constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 constexpr std::size_t kLetters = 26, kNumbers = 90;  // 10 … 99: two digits for programs that read them as a number
 constexpr std::size_t kMostNames = kLetters * kDigits.size() * kDigits.size() * kNumbers;
 constexpr std::size_t kMostRocks = 99;
-
-/// "AAA10", "AAA11", …: three letters or digits, the first one a letter, and a number of two digits.
-std::string element_name(std::size_t cell) {
-  const std::size_t word = cell / kNumbers, n = kDigits.size();
-  std::string name = {kDigits[word / (n * n)], kDigits[word / n % n], kDigits[word % n]};
-  return name + to_text(10 + cell % kNumbers);
-}
 
 std::string right_aligned(const std::string& value, std::size_t columns) {
   return value.size() < columns ? std::string(columns - value.size(), ' ') + value : value;
@@ -61,41 +54,44 @@ std::string in_ten_columns(double value) {
   return right_aligned(best, kColumns);
 }
 
-/// The rock of a layer by its number, as the n-th of ROCKS. None beyond two digits: then TOUGH takes the first.
-std::string rock(std::size_t layer) { return right_aligned(layer < kMostRocks ? to_text(layer + 1) : "", 5); }
+/// The rock by its number, as the n-th of ROCKS. None beyond two digits: then TOUGH takes the first.
+std::string rock(std::size_t material) {
+  return right_aligned(material > 0 && material <= kMostRocks ? to_text(material) : "", 5);
+}
 
 /// The cosine of the angle between the connection, from its first element to the second, and gravity. For neighbors at
 /// different heights it is the drop over the distance: water at rest then stays at rest.
-double downward(const Columns& c, const ColumnConnection& connection) {
-  if (connection.is_vertical) return 1;
-  return (c.center(connection.first) - c.center(connection.second)) /
-         (connection.first_distance + connection.second_distance);
+double downward(const FiniteVolumes& volumes, const FiniteVolumes::Connection& c) {
+  if (c.is_vertical) return 1;
+  return (volumes.cells[c.first].center.z - volumes.cells[c.second].center.z) / (c.first_distance + c.second_distance);
 }
 
 }  // namespace
 
-void write_columns_tough(const DecJob& job) {
-  const Columns& c = *job.options.columns;
-  if (c.n_cells() > kMostNames)
-    fail(ErrorCode::unsupported, "", c.n_cells(), " cells are more than TOUGH's ", kMostNames, " names");
+// "AAA10", "AAA11", …: three letters or digits, the first one a letter, and a number of two digits.
+std::string tough_name(std::size_t cell) {
+  const std::size_t word = cell / kNumbers, n = kDigits.size();
+  std::string name = {kDigits[word / (n * n)], kDigits[word / n % n], kDigits[word % n]};
+  return name + to_text(10 + cell % kNumbers);
+}
+
+void write_volumes_tough(const DecFolder& folder, const FiniteVolumes& volumes) {
+  if (volumes.n_numbers > kMostNames)
+    fail(ErrorCode::unsupported, "", volumes.n_numbers, " cells are more than TOUGH's ", kMostNames, " names");
   const std::string none5(5, ' '), none10(10, ' ');
-  Output& out = job.open("MESH");
+  Output& out = folder.open("MESH");
   out.put("ELEME\n");
-  for (std::size_t cell = 0; cell < c.n_cells(); ++cell) {
-    if (!c.is_active(cell)) continue;
-    const Vec2 at = job.mesh.position(c.vertex(cell));
-    out.put(element_name(cell), none5, none5, rock(c.layer(cell)), in_ten_columns(c.volumes[cell]), none10, none10,
-            in_ten_columns(at.x), in_ten_columns(at.y), in_ten_columns(c.center(cell)), '\n');
+  for (const auto& [number, at, volume, material] : volumes.cells) {
+    out.put(tough_name(number), none5, none5, rock(material), in_ten_columns(volume), none10, none10,
+            in_ten_columns(at.x), in_ten_columns(at.y), in_ten_columns(at.z), '\n');
   }
   out.put("\nCONNE\n");
-  for (const ColumnConnection& connection : c.connections) {
-    out.put(element_name(connection.first), element_name(connection.second), none5, none5, none5,
-            right_aligned(connection.is_vertical ? "3" : "1", 5), in_ten_columns(connection.first_distance),
-            in_ten_columns(connection.second_distance), in_ten_columns(connection.area),
-            in_ten_columns(downward(c, connection)), '\n');
+  for (const FiniteVolumes::Connection& c : volumes.connections) {
+    out.put(tough_name(volumes.cells[c.first].number), tough_name(volumes.cells[c.second].number), none5, none5, none5,
+            right_aligned(c.is_vertical ? "3" : "1", 5), in_ten_columns(c.first_distance),
+            in_ten_columns(c.second_distance), in_ten_columns(c.area), in_ten_columns(downward(volumes, c)), '\n');
   }
   out.put('\n');
-  write_groups(job, "MESH.csv", element_name);
 }
 
 }  // namespace temper::io
