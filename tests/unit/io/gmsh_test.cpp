@@ -20,6 +20,40 @@ TEST_F(FileTest, SparseNodeNumbersAndElementsOutOfOrderAreRead) {
   EXPECT_EQ(plain(f->numbering->triangle_where(1)), "m.msh:13");
 }
 
+TEST_F(FileTest, ElementsOfHigherOrderAreReadByTheirCorners) {
+  const std::string points = "1 0 0 0\n2 0.5 0 0\n3 1 0 0\n4 0.5 0.5 0\n5 0 0.5 0\n6 0 1 0\n7 2 1 0\n";
+  const auto f =
+      read(make("m.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n7\n" + points +
+                             "$EndNodes\n$Elements\n3\n1 8 2 4 1 1 3 2\n2 9 2 5 1 1 3 6 2 4 5\n3 2 2 6 1 3 7 6\n"
+                             "$EndElements\n$NodeData\n1\n\"t\"\n1\n0\n3\n0\n1\n7\n1 1\n2 2\n3 3\n4 4\n5 5\n6 6\n7 7\n"
+                             "$EndNodeData\n"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}, {2, 1}}));
+  EXPECT_EQ(f->triangles.corners, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {1, 3, 2}}));
+  EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{5, 6}));
+  EXPECT_EQ(f->lines.corners, (std::vector<std::array<std::int32_t, 2>>{{0, 1}}));
+  EXPECT_EQ(f->point_data.at(0).values, Values(std::vector<double>{1, 3, 6, 7}));
+  EXPECT_EQ(f->numbering->point(3), "point 7");
+  ASSERT_EQ(f->warnings.size(), 1u);
+  EXPECT_EQ(
+      plain(f->warnings[0]),
+      "m.msh: elements of higher order are read by their corners: edges become straight, and nodes between corners "
+      "are left out");
+  const auto tets =
+      read(make("t.msh",
+                "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 0 "
+                "0\n6 .5 .5 0\n7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n$EndNodes\n$Elements\n1\n1 11 2 9 1 1 "
+                "2 3 4 5 6 7 8 9 10\n$EndElements\n"));
+  ASSERT_TRUE(tets) << tets.error().what();
+  EXPECT_EQ(tets->points.size(), 4u);
+  EXPECT_EQ(tets->tetrahedra.tags, std::vector<std::int32_t>{9});
+  const auto solid = read(make("m.msh",
+                               "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n"
+                               "1 17 2 9 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\n$EndElements\n"));
+  ASSERT_FALSE(solid);
+  EXPECT_EQ(plain(solid.error().what()).substr(0, 47), "m.msh:10: element 1 is a quadratic hexahedron; ");
+}
+
 TEST_F(FileTest, NamesOfVersion20AreOfAllDimensionsWhoseElementsCarryTheTag) {
   const std::string content =
       "$MeshFormat\n2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n5 \"steel and more\"\n8 \"wall\"\n100 \"nothing\"\n"

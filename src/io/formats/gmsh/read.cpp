@@ -2,7 +2,8 @@
 //
 // A physical tag is the region of a triangle or tetrahedron, or the tag of a line or point. The number of the geometric
 // entity is kept as data gmsh:geometrical. NodeData and ElementData become data; the NodeData "weight" are the weights.
-// Elements are sorted by their numbers: Gmsh gave them in this order, and other programs count by it.
+// Elements are sorted by their numbers: Gmsh gave them in this order, and other programs count by it. Those of higher
+// order are read by their corners.
 //
 // The first physical group of an entity is the region, or the tag. Lines, points and tagged faces are there once more
 // for each further group, as version 2 lists them. Further groups of cells are data gmsh:physical:TAG, 1 inside. Cells
@@ -23,6 +24,7 @@
 #include <utility>
 
 #include "io/formats/gmsh/gmsh.hpp"
+#include "io/formats/gmsh/higher_order.hpp"
 #include "io/formats/gmsh/reader.hpp"
 
 namespace temper::io {
@@ -37,20 +39,6 @@ std::string_view mesh_format_version(std::string_view head) {
   std::string_view rest = head.substr(at + std::string_view("$MeshFormat").size());
   const std::size_t first = rest.find_first_not_of(" \t\r\n");
   return first == std::string_view::npos ? std::string_view{} : rest.substr(first, 8);
-}
-
-// Names of the types from 4.
-constexpr std::array<std::string_view, 8> kElementNames = {"tetrahedron",
-                                                           "hexahedron",
-                                                           "prism",
-                                                           "pyramid",
-                                                           "quadratic line",
-                                                           "quadratic triangle",
-                                                           "quadratic quadrilateral",
-                                                           "quadratic tetrahedron"};
-std::string_view element_name(std::int32_t type) {
-  if (type == 16) return "quadratic quadrilateral";
-  return type >= 4 && type <= 11 ? kElementNames[static_cast<std::size_t>(type) - 4] : "element of an unknown type";
 }
 
 class GmshReader {
@@ -153,9 +141,6 @@ class GmshReader {
                                 " is dropped: it has no dimension, and no element has the tag"));
     }
   }
-  [[nodiscard]] bool is_named(std::int32_t dimension, std::int32_t tag) const {
-    return named_.contains({dimension, tag});
-  }
   void nodes_2(bool parametric) {
     const std::size_t n = in_.scanner.count("nodes", in_.is_binary ? 28 : 8);
     in_.begin_numbers();
@@ -233,8 +218,8 @@ class GmshReader {
       if (k == 3 || (k == 2 && n_tags == 3)) of.partition = tag;
       if (k >= 3 && tag > 0) ++n_partitions;
     }
-    const std::int32_t dimension = type == kGmshPoint ? 0 : type == kGmshLine ? 1 : type == kGmshTetrahedron ? 3 : 2;
-    of.of_partition_alone = n_partitions > 1 && dimension < 2 && !is_named(dimension, of.physical);
+    const std::int32_t dimension = gmsh_dimension(type);
+    of.of_partition_alone = n_partitions > 1 && dimension < 2 && !named_.contains({dimension, of.physical});
     return of;
   }
   void elements_4() {
@@ -299,6 +284,7 @@ class GmshReader {
       names.triangle_lines = std::move(elements_.triangles.text_lines);
       names.line_lines = std::move(elements_.lines.text_lines);
     }
+    if (!between_corners_.empty()) drop_nodes_between_corners(document_, between_corners_);
     if (elements_.n_of_partition > 0) {
       f.warnings.push_back(text(in_.scanner.path(), ": ", elements_.n_of_partition,
                                 elements_.n_of_partition == 1 ? " element" : " elements", " that the partition added ",
@@ -325,7 +311,9 @@ class GmshReader {
   void add_element(std::int32_t type, std::int64_t number, const Membership& of) {
     if (!of.further.empty()) in_.allocation.take(of.further.size(), 1, in_.where());
     const auto line = static_cast<std::int64_t>(in_.scanner.line());
-    switch (type) {
+    const GmshElementType kind = gmsh_element_type(type);
+    n_others_ = kind.others;
+    switch (kind.linear) {
       case kGmshTetrahedron: {
         const auto corners = nodes_of<4>("tetrahedron", number);
         return of.of_partition_alone ? leave_out(number) : elements_.tets.add(corners, of, number, line);
@@ -350,7 +338,7 @@ class GmshReader {
         return of.of_partition_alone ? leave_out(number) : elements_.points.add(point, of, number, line);
       }
       default:
-        refuse_element(in_.where(), number, element_name(type), KindsOfCells::all);
+        refuse_element(in_.where(), number, gmsh_element_name(type), KindsOfCells::all);
     }
   }
   void leave_out(std::int64_t number) {
@@ -361,6 +349,10 @@ class GmshReader {
   [[nodiscard]] std::array<std::int32_t, N> nodes_of(std::string_view kind, std::int64_t element) {
     std::array<std::int32_t, N> nodes;
     for (std::int32_t& node : nodes) node = node_index(kind, element);
+    for (std::int32_t i = 0; i < n_others_; ++i) {
+      between_corners_.resize(document_.file.points.size());
+      between_corners_[static_cast<std::size_t>(node_index(kind, element))] = true;
+    }
     return nodes;
   }
   [[nodiscard]] std::int32_t node_index(std::string_view kind, std::int64_t element) {
@@ -388,6 +380,8 @@ class GmshReader {
   NamedGroups named_;
   GmshElements elements_;
   std::optional<GmshData> data_;  // when all elements are there
+  std::int32_t n_others_ = 0;     // nodes of an element after its corners
+  std::vector<bool> between_corners_;
 };
 
 }  // namespace
