@@ -30,14 +30,15 @@ using Files = std::vector<std::string>(const std::string& path);
 
 Sniff sniff_vtu, sniff_gmsh22, sniff_gmsh41, sniff_medit, sniff_triangle, sniff_obj, sniff_legacy_vtk, sniff_vtk51,
     sniff_jigsaw, sniff_off, sniff_ply, sniff_adcirc, sniff_vtkhdf, sniff_mpas, sniff_ugrid, sniff_mfem, sniff_fesom,
-    sniff_2dm, sniff_esri_ascii, sniff_geotiff;
+    sniff_2dm, sniff_esri_ascii, sniff_geotiff, sniff_mike, sniff_avs, sniff_selafin;
 Read read_vtu, read_gmsh, read_medit, read_triangle, read_obj, read_legacy_vtk, read_jigsaw_mesh, read_off, read_ply,
-    read_adcirc, read_vtkhdf, read_mpas, read_mfem, read_fesom, read_2dm, read_esri_ascii, read_geotiff;
+    read_adcirc, read_vtkhdf, read_mpas, read_mfem, read_fesom, read_2dm, read_esri_ascii, read_geotiff, read_mike,
+    read_avs, read_selafin;
 Write write_vtu, write_gmsh22, write_gmsh41, write_medit, write_triangle, write_obj, write_legacy_vtk, write_vtk51,
     write_jigsaw_mesh, write_off, write_ply, write_adcirc, write_vtkhdf, write_mpas, write_ugrid, write_fesom,
-    write_2dm;
-Keeps fesom_keeps, adcirc_keeps, jigsaw_keeps, medit_keeps;
-Files fesom_files, triangle_files, triangle_files_to_read, vtkhdf_files, netcdf_files;
+    write_2dm, write_mike, write_selafin;
+Keeps fesom_keeps, adcirc_keeps, jigsaw_keeps, medit_keeps, mike_keeps, selafin_keeps;
+Files fesom_files, selafin_files, triangle_files, triangle_files_to_read, vtkhdf_files, netcdf_files;
 
 namespace {
 
@@ -60,6 +61,10 @@ constexpr FormatRow kRows[] = {
      sniff_ply, read_ply, write_ply},
     {"off", "OFF", ".off", kInSpace,
      sniff_off, read_off, write_off, {.first_point = 0}},
+    {"mike", "mesh of MIKE 21", ".mike.mesh", kZ | kLines | kMarkedPoints | kNames | kQuadrilaterals,
+     sniff_mike, read_mike, write_mike, {.keeps = mike_keeps, .bed = Bed::z, .has_heights = true}},
+    {"avs", "AVS UCD (LaGriT)", ".inp .avs", 0,
+     sniff_avs, read_avs},
     // This row is before the formats whose first word may also be the first word of a title. It holds only those tags
     // and names that are boundaries; its writer names the others.
     {"adcirc", "ADCIRC fort.14", ".14 .grd .gr3", kLines | kMarkedPoints | kNames | kSphere | kQuadrilaterals,
@@ -73,6 +78,9 @@ constexpr FormatRow kRows[] = {
      sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
     {"vtk51", "legacy VTK 5.1", ".vtk51", kAll | kSphere | kQuadrilaterals | kTetrahedra,
      sniff_vtk51, read_legacy_vtk, write_vtk51},
+    {"selafin", "Selafin of TELEMAC", ".slf .sel .ser .srf", kLines | kMarkedPoints | kNames,
+     sniff_selafin, read_selafin, write_selafin,
+     {.keeps = selafin_keeps, .files_to_write = selafin_files, .files_to_read = selafin_files, .bed = Bed::z}},
     {"mfem", "MFEM mesh v1.0", ".mesh", 0,
      sniff_mfem, read_mfem},
     {"esri", "ESRI ASCII grid", ".asc", 0,

@@ -12,7 +12,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "io/conversion/known_arrays.hpp"
 
@@ -44,10 +43,5 @@ struct AdcircRow {
   int numbers = 0;
 };
 [[nodiscard]] AdcircRow adcirc_row(const AdcircBoundary& boundary);
-
-/// Nodes in a row.
-using NodeString = std::vector<std::int32_t>;
-/// The edges, each given once, as strings in their given order.
-[[nodiscard]] std::vector<NodeString> node_strings(const std::vector<std::array<std::int32_t, 2>>& edges);
 
 }  // namespace temper::io

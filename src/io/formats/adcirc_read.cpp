@@ -22,7 +22,7 @@
 #include "io/conversion/bed.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/formats/adcirc.hpp"
-#include "io/formats/format.hpp"
+#include "io/formats/boundary_codes.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
 

@@ -10,37 +10,12 @@
 
 #include "io/conversion/bed.hpp"
 #include "io/formats/adcirc.hpp"
-#include "io/formats/format.hpp"
+#include "io/formats/boundary_codes.hpp"
 #include "io/text/values.hpp"
 
 namespace temper::io {
 
-std::vector<NodeString> node_strings(const std::vector<std::array<std::int32_t, 2>>& edges) {
-  std::map<std::int32_t, std::int32_t> next;
-  std::set<std::int32_t> targets;
-  for (const auto& [a, b] : edges) {
-    next.emplace(a, b);
-    targets.insert(b);
-  }
-  std::vector<NodeString> strings;
-  const auto follow = [&](std::int32_t from) {
-    NodeString nodes = {from};
-    for (auto it = next.find(from); it != next.end(); it = next.find(nodes.back())) {
-      nodes.push_back(it->second);
-      next.erase(it);
-    }
-    if (nodes.size() > 1) strings.push_back(std::move(nodes));
-  };
-  for (const auto& edge : edges) {
-    if (!targets.contains(edge[0])) follow(edge[0]);
-  }
-  for (const auto& edge : edges) follow(edge[0]);  // loops
-  return strings;
-}
-
 namespace {
-
-using DirectedEdge = std::array<std::int32_t, 2>;
 
 /// A boundary in the form that is written.
 struct AdcircString {
@@ -76,27 +51,6 @@ std::vector<NodeString> strings_as_read(const std::vector<RowsOfLine>& lines) {
     before = second;
   }
   return strings;
-}
-
-/// Edges of one triangle, with the domain on their left.
-std::set<DirectedEdge> boundary_edges(const MeshFile& f) {
-  std::vector<DirectedEdge> edges;
-  edges.reserve(3 * f.triangles.size());
-  for (const auto& t : f.triangles) {
-    const auto at = [&](std::size_t k) { return position_of(f, static_cast<std::size_t>(t[k])); };
-    const Vec3 normal = cross(at(1) - at(0), at(2) - at(0));
-    const bool clockwise = (f.sphere() != nullptr ? dot(normal, at(0)) : normal.z) < 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t a = t[k], b = t[(k + 1) % 3];
-      edges.push_back(clockwise ? DirectedEdge{b, a} : DirectedEdge{a, b});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  std::set<DirectedEdge> boundary;
-  for (const auto& [a, b] : edges) {
-    if (!std::binary_search(edges.begin(), edges.end(), DirectedEdge{b, a})) boundary.insert({a, b});
-  }
-  return boundary;
 }
 
 class AdcircWriter {

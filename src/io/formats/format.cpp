@@ -14,6 +14,7 @@
 #include "io/disk/files.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
+#include "io/text/values.hpp"
 
 namespace temper::io {
 
@@ -93,12 +94,12 @@ void make_z_data(Document& d) {
 /// depths in 2DM files.
 void settle_bed(Document& d, std::optional<Positive> positive) {
   MeshFile& f = d.file;
-  f.positive = positive;
+  if (positive) f.positive = positive;
   if (positive && bed_of(f) == nullptr) {
     f.warnings.push_back(text(d.names->path, ": has no depths or heights of a bed, so positive ",
                               *positive == Positive::up ? "up" : "down", " has no effect"));
   }
-  if (positive || !details_of(f).has_heights || !f.z_is_data) return;
+  if (f.positive || !details_of(f).has_heights || !f.z_is_data) return;
   f.positive = Positive::up;
   f.warnings.push_back(text(d.names->path,
                             ": z is taken as heights, positive up. Next: --positive down if they are depths, or "
@@ -185,7 +186,8 @@ std::string_view next_for(std::string_view kind, KindsOfCells read) {
   if (kind.starts_with("quadratic") || kind.starts_with("Lagrange")) return ". Next: write linear elements";
   if (kind == "quadrilateral" && !quadrilaterals) return kNextForQuadrilaterals;
   if (kind == "tetrahedron" && !tetrahedra) return kNextForTetrahedra;
-  if (tetrahedra && std::ranges::find(kSolids, kind) != std::end(kSolids)) return ". Next: split it into tetrahedra";
+  if (tetrahedra && std::ranges::find(kSolids, kind) != std::end(kSolids))
+    return ". Next: split it into tetrahedra, as triangulate() of PyVista does";
   return {};
 }
 

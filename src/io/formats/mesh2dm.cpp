@@ -18,8 +18,7 @@
 #include <set>
 
 #include "io/conversion/globe.hpp"
-#include "io/formats/adcirc.hpp"
-#include "io/formats/format.hpp"
+#include "io/formats/boundary_codes.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 

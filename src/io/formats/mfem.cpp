@@ -1,7 +1,8 @@
-// MFEM mesh v1.0, linear triangles: sections dimension, elements, boundary, vertices; '#' starts a comment.
+// MFEM mesh v1.0, linear triangles or tetrahedra: sections dimension, elements, boundary, vertices; '#' starts a
+// comment.
 //
-//   elements  count, then a line each: attribute geometry v0 v1 v2      vertices count from 0
-//   boundary  the same for edges: they become tagged lines
+//   elements  count, then a line each: attribute geometry v0 v1 v2 [v3]      vertices count from 0
+//   boundary  the same for edges or faces: they become tagged lines or faces
 #include "io/formats/format.hpp"
 #include "io/text/scanner.hpp"
 
@@ -11,9 +12,11 @@ bool sniff_mfem(std::string_view head) { return head.starts_with("MFEM mesh v1.0
 
 namespace {
 
-constexpr std::int32_t kSegment = 1, kTriangle = 2;
-constexpr std::string_view kGeometries[] = {"point",       "segment", "triangle", "quadrilateral",
-                                            "tetrahedron", "cube",    "prism",    "pyramid"};
+constexpr std::string_view kNextForMfem =
+    ". Next: in MFEM's mesh-explorer, c sets the order to 1 and V saves it as VTK";
+constexpr std::int32_t kSegment = 1, kTriangle = 2, kTetrahedron = 4;
+constexpr std::string_view kGeometries[] = {"point",       "segment",    "triangle", "quadrilateral",
+                                            "tetrahedron", "hexahedron", "prism",    "pyramid"};
 
 std::string_view geometry_name(std::int32_t geometry) {
   return geometry >= 0 && geometry < 8 ? kGeometries[geometry] : "element of unknown geometry";
@@ -29,10 +32,9 @@ class MfemReader {
     while (!scanner_.at_end()) {
       const std::string_view section = scanner_.word("a section");
       if (section == "dimension") {
-        const std::int32_t dimension = scanner_.integer("the dimension");
-        if (dimension != 2)
-          scanner_.fail_here(ErrorCode::unsupported, "has elements of dimension ", dimension, "; expected 2",
-                             dimension == 3 ? kNextForTetrahedra : "");
+        dimension_ = scanner_.integer("the dimension");
+        if (dimension_ != 2 && dimension_ != 3)
+          scanner_.fail_here(ErrorCode::unsupported, "has elements of dimension ", dimension_, "; expected 2 or 3");
       } else if (section == "elements") {
         elements();
       } else if (section == "boundary") {
@@ -41,7 +43,8 @@ class MfemReader {
         vertices();
         has_vertices = true;
       } else if (section == "nodes") {
-        scanner_.fail_here(ErrorCode::unsupported, "is a curved mesh (section nodes); temper reads linear triangles");
+        scanner_.fail_here(ErrorCode::unsupported, "is a curved mesh (section nodes); temper reads linear elements",
+                           kNextForMfem);
       } else {
         scanner_.fail_here(ErrorCode::syntax, "expected a section of an MFEM mesh, found ", in_quotes(section));
       }
@@ -53,42 +56,50 @@ class MfemReader {
  private:
   void elements() {
     MeshFile& f = document_.file;
-    const std::size_t n = scanner_.count("elements", 10);
-    f.triangles.corners.reserve(n);
-    f.triangles.tags.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      f.triangles.tags.push_back(scanner_.integer("the attribute of an element"));
-      document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-      const std::int32_t geometry = scanner_.integer("the geometry of an element");
-      if (geometry != kTriangle)
-        refuse_element(scanner_.where(), static_cast<std::int64_t>(i), geometry_name(geometry),
-                       KindsOfCells::triangles);
-      const std::int32_t a = scanner_.vertex(0), b = scanner_.vertex(0);
-      f.triangles.corners.push_back({a, b, scanner_.vertex(0)});
-    }
-    document_.names->triangles = RunLength(0, n);
+    FileNames& names = *document_.names;
+    if (dimension_ == 0) scanner_.fail_here(ErrorCode::syntax, "expected the section dimension before elements");
+    const auto check = [this](std::int64_t i, std::int32_t geometry) {
+      if (geometry != (dimension_ == 2 ? kTriangle : kTetrahedron))
+        refuse_element(scanner_.where(), i, geometry_name(geometry),
+                       dimension_ == 2 ? KindsOfCells::triangles : KindsOfCells::simplices);
+    };
+    if (dimension_ == 2) return cells("elements", f.triangles, names.triangles, names.triangle_lines, check);
+    cells("elements", f.tetrahedra, names.tetrahedra, names.tetrahedron_lines, check);
   }
   void boundary() {
     MeshFile& f = document_.file;
-    const std::size_t n = scanner_.count("boundary elements", 8);
-    for (std::size_t i = 0; i < n; ++i) {
-      f.lines.tags.push_back(scanner_.integer("the attribute of a boundary element"));
-      document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-      const std::int32_t geometry = scanner_.integer("the geometry of a boundary element");
-      if (geometry != kSegment) {
+    FileNames& names = *document_.names;
+    const auto check = [this](std::int64_t i, std::int32_t geometry) {
+      if (geometry != (dimension_ == 2 ? kSegment : kTriangle))
         scanner_.fail_here(ErrorCode::unsupported, "boundary element ", i, " is a ", geometry_name(geometry),
-                           "; expected a segment");
-      }
-      const std::int32_t a = scanner_.vertex(0);
-      f.lines.corners.push_back({a, scanner_.vertex(0)});
+                           "; expected a ", dimension_ == 2 ? "segment" : "triangle");
+    };
+    if (dimension_ == 2)
+      cells("boundary elements", f.lines, names.lines, names.line_lines, check);
+    else
+      cells("boundary elements", f.triangles, names.triangles, names.triangle_lines, check);
+  }
+  /// Reads elements of one dimension. `check` refuses a geometry that is not expected.
+  template <int dimension, class Check>
+  void cells(std::string_view several, Cells<dimension>& cells, RunLength& numbers, RunLength& lines,
+             const Check& check) {
+    const std::size_t n = scanner_.count(several, 2 * (dimension + 3));
+    cells.corners.reserve(n);
+    cells.tags.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      cells.tags.push_back(scanner_.integer("the attribute of an element"));
+      lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      check(static_cast<std::int64_t>(i), scanner_.integer("the geometry of an element"));
+      for (std::int32_t& corner : cells.corners.emplace_back()) corner = scanner_.vertex(0);
     }
-    document_.names->lines = RunLength(0, n);
+    numbers = RunLength(0, n);
   }
   void vertices() {
     MeshFile& f = document_.file;
     const std::size_t n = scanner_.count("vertices", 1);
     if (!scanner_.at_end() && scanner_.peek() == "nodes") {
-      scanner_.fail_here(ErrorCode::unsupported, "is a curved mesh (section nodes); temper reads linear triangles");
+      scanner_.fail_here(ErrorCode::unsupported, "is a curved mesh (section nodes); temper reads linear elements",
+                         kNextForMfem);
     }
     const std::int32_t dimension = scanner_.integer("the number of coordinates of a vertex");
     if (dimension != 2 && dimension != 3) {
@@ -107,6 +118,7 @@ class MfemReader {
   }
   Scanner scanner_;
   Document document_;
+  std::int32_t dimension_ = 0;
 };
 
 }  // namespace

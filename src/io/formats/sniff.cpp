@@ -1,5 +1,6 @@
 // Formats that temper recognizes and does not read. The error names the format, and a program that converts it.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <vector>
 
@@ -53,22 +54,23 @@ bool is_binary_stl(std::string_view beginning, std::uint64_t bytes) {
   return n > 0 && (bytes - kHeader) % kTriangleBytes == 0 && (bytes - kHeader) / kTriangleBytes == n;
 }
 
-/// Records of Fortran: a title of 80 bytes, then two integers.
-bool is_selafin(std::string_view head) {
-  using namespace std::string_view_literals;
-  constexpr std::size_t kEnd = 84;  // of the title, before its length once more
-  return (head.starts_with("\0\0\0\x50"sv) &&
-          head.substr(std::min(kEnd, head.size())).starts_with("\0\0\0\x50\0\0\0\x8"sv)) ||
-         (head.starts_with("\x50\0\0\0"sv) &&
-          head.substr(std::min(kEnd, head.size())).starts_with("\x50\0\0\0\x8\0\0\0"sv));
-}
-
 /// The first line that is no comment.
 std::string_view skip_comments(std::string_view s, char comment) {
   for (s = skip_blanks(s); s.starts_with(comment); s = skip_blanks(s)) {
     s.remove_prefix(std::min(s.find('\n'), s.size()));
   }
   return s;
+}
+
+/// Blocks between lines of -1, each with its number first.
+bool is_universal(std::string_view head) {
+  const std::string_view first = skip_blanks(head.substr(0, head.find('\n')));
+  if (!first.starts_with("-1") || !skip_blanks(first.substr(2)).empty()) return false;
+  const std::string_view second = skip_blanks(head.substr(std::min(head.find('\n'), head.size())));
+  constexpr std::array<std::string_view, 5> kBlocks = {"151", "164", "2411", "2412", "2420"};
+  return std::ranges::any_of(kBlocks, [&](std::string_view block) {
+    return second.starts_with(block) && skip_blanks(second.substr(block.size(), 1)).empty();
+  });
 }
 
 struct Known {
@@ -96,7 +98,8 @@ constexpr Known kKnown[] = {
        return h.starts_with(std::string_view("\1\0\0\0", 4)) || h.starts_with(std::string_view("\0\0\0\1", 4));
      },
      kMeshio},
-    {"an MFEM mesh of another version than v1.0", [](std::string_view h) { return h.starts_with("MFEM "); }},
+    {"an MFEM mesh of another version than v1.0", [](std::string_view h) { return h.starts_with("MFEM "); },
+     ". Next: in MFEM's mesh-explorer, c sets the order to 1 and V saves it as VTK"},
     {"a VTK XML file of another type than UnstructuredGrid",
      [](std::string_view h) { return h.find("<VTKFile") != std::string_view::npos; }},
     {"an XDMF file", [](std::string_view h) { return h.find("<Xdmf") != std::string_view::npos; }, kMeshio},
@@ -120,8 +123,18 @@ constexpr Known kKnown[] = {
      kMeshio},
     {"a Netgen mesh", [](std::string_view h) { return h.starts_with("mesh3d") || h.starts_with("areamesh"); }, kMeshio},
     {"a compressed file", [](std::string_view h) { return h.starts_with("\x1f\x8b") || h.starts_with("PK\3\4"); }},
-    {"a Selafin file of TELEMAC", is_selafin},
-    {"a FreeFem mesh", is_freefem},
+    {"a dfsu file of DHI", [](std::string_view h) { return h.starts_with("DHI_DFS_"); },
+     ". Next: mikeio.read(IN).geometry.to_mesh(OUT) in Python"},
+    {"a CGNS file in ADF",
+     [](std::string_view h) { return h.substr(0, 64).find("ADF Database") != std::string_view::npos; },
+     ". Next: adf2hdf IN OUT, then meshio"},
+    {"a universal file of I-DEAS", is_universal, kGmsh},
+    {"an archive of Ansys (CDB)",
+     [](std::string_view h) { return h.starts_with("/PREP7") || starts_with_any_case(h, "/COM,ANSYS"); },
+     ". Next: mapdl_archive.Archive(IN).grid.save(OUT) in Python, where OUT ends with .vtu"},
+    {"an OpenFOAM file", [](std::string_view h) { return h.find("FoamFile") != std::string_view::npos; },
+     ". Next: foamToVTK"},
+    {"a FreeFem mesh", is_freefem, ". Next: savemesh with a name that ends with .mesh writes medit"},
 };
 
 }  // namespace

@@ -41,6 +41,12 @@ class Damage : public FileTest {
     add("ply binary", "b.ply", {"ply", Encoding::appended});
     add("off", "a.off", {"off", {}});
     add("adcirc", "a.14", {"adcirc", {}});
+    add("mike", "c.mesh", {"mike", {}});
+    add("selafin", "a.slf", {"selafin", {}});
+    result.push_back({"selafin boundary", "a.cli", slurp(path("a.cli"))});
+    result.push_back({"avs", "a.inp",
+                      "4 3 2 1 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n1 7 tri 1 2 3\n2 8 tri 1 3 4\n3 9 line 1 2\n1 2\n"
+                      "v, real\n1 0 1\n2 0 1\n3 0 1\n4 0 1\n1 1\ni, integer\n1 1\n2 2\n3 3\n"});
     if (expects_netcdf()) {
       add("mpas", "a.nc", {"mpas", {}});
       add("ugrid", "b.nc", {"ugrid", {}});
@@ -72,6 +78,7 @@ class Damage : public FileTest {
   /// The file to hand to read(): side files and segments are read with their mesh.
   static std::string entry(const std::string& file) {
     if (file == "a.poly") return "a.node";
+    if (file == "a.cli") return "a.slf";
     if (file == "a.obj.weights.csv") return "a.obj";
     return file;
   }
@@ -159,6 +166,8 @@ TEST_F(Damage, CountsLargerThanTheFileAreRefusedBeforeMemoryIsAskedFor) {
       {"a.off", "OFF\n4000000000000 1 0\n0 0 0\n"},
       {"a.ply", "ply\nformat binary_big_endian 1.0\nelement vertex 4000000000000\nproperty char x\nend_header\n0"},
       {"fort.14", "t\n1 4000000000000\n1 0 0 0\n"},
+      {"c.mesh", "4000000000000 UTM-33\n1 0 0 0 0\n"},
+      {"a.inp", "4000000000000 1 0 0 0\n1 0 0 0\n"},
       {"a.vtu",
        "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid>"
        "<Piece NumberOfPoints=\"2000000000\" NumberOfCells=\"2000000000\"><Points>"

@@ -131,8 +131,9 @@ std::vector<Case> cases() {
   for (const Format& format : formats()) {
     const FormatRow& row = *find_row(format.name);
     const std::string name(format.name), suffix(format.suffixes.substr(0, format.suffixes.find(' ')));
-    // fort.14 holds those alone that are boundaries.
-    const Contents tags = row.name == "adcirc" ? 0 : row.holds & kAllTags;
+    // fort.14, MIKE 21 and Selafin hold those alone that are boundaries.
+    const Contents lost = row.name == "adcirc" ? kAllTags : has_boundary_lines(row.name) ? kLines : 0u;
+    const Contents tags = row.holds & kAllTags & ~lost;
     for (const auto& [encoding, value] : kEncodings) {
       if (format.writes && format.holds_planes)
         cases.push_back({name + encoding, name, "m" + suffix, value, (row.holds & kZ) != 0, tags, needs_netcdf(format),

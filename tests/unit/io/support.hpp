@@ -36,6 +36,11 @@ inline bool needs_netcdf(const Format& format) { return format.name == "mpas" ||
 
 inline bool needs_hdf5(const Format& format) { return format.name == "vtkhdf"; }
 
+/// Whether its lines are on the boundary alone: strings or codes of boundary nodes.
+inline bool has_boundary_lines(std::string_view format) {
+  return format == "adcirc" || format == "mike" || format == "selafin";
+}
+
 /// Whether temper writes meshes of the plane in it, here.
 inline bool writes_planes(const Format& format) {
   return format.writes && format.holds_planes && (!needs_netcdf(format) || !netcdf_version().empty()) &&

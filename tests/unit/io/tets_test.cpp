@@ -272,7 +272,7 @@ TEST_F(FilesOfTetrahedra, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
   EXPECT_EQ(
       error_of("m.msh", gmsh("2\n4 5 2 0 1 11 12 13 14 15 16 17 18\n5 4 2 0 1 11 12 13 14\n")),
       "m.msh:17: element 4 is a hexahedron; temper reads linear triangles, quadrilaterals and tetrahedra, with lines "
-      "and points as tags. Next: split it into tetrahedra");
+      "and points as tags. Next: split it into tetrahedra, as triangulate() of PyVista does");
   EXPECT_EQ(
       error_of("m.msh", gmsh("2\n4 3 2 0 1 11 12 15 13\n5 4 2 0 1 11 12 13 14\n")),
       "m.msh:17: triangle 4 is a quadrilateral beside tetrahedra; expected triangles as their tagged faces. Next: "
@@ -292,9 +292,10 @@ TEST_F(FilesOfTetrahedra, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
       "or remove it";
   EXPECT_EQ(error_of("m.mesh", medit(quadrilateral + tetrahedron)), "m.mesh:11: element 1" + beside);
   EXPECT_EQ(error_of("m.mesh", medit(tetrahedron + quadrilateral)), "m.mesh:14: element 1" + beside);
-  EXPECT_EQ(
-      error_of("m.mesh", "MFEM mesh v1.0\ndimension\n3\n"),
-      "m.mesh:3: has elements of dimension 3; expected 2. Next: write meshes of tetrahedra as VTU, Gmsh or medit");
+  EXPECT_EQ(error_of("m.mesh", "MFEM mesh v1.0\ndimension\n3\nelements\n1\n1 5 0 1 2 3 4 5 6 7\n"),
+            "m.mesh:6: element 0 is a hexahedron; in this format temper reads linear triangles and tetrahedra, with "
+            "lines and points "
+            "as tags. Next: split it into tetrahedra, as triangulate() of PyVista does");
   EXPECT_EQ(error_of("m.mesh", "MFEM mesh v1.0\ndimension\n2\nelements\n1\n1 4 0 1 2 3\n"),
             "m.mesh:6: element 0 is a tetrahedron; in this format temper reads linear triangles, with lines and points "
             "as tags. Next: write meshes of tetrahedra as VTU, Gmsh or medit");
@@ -304,6 +305,26 @@ TEST_F(FilesOfTetrahedra, ErrorsHaveTheNumbersAndTheLinesOfTheFile) {
                             "CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n24\n"),
       "m.vtk:8: element 0 is a quadratic tetrahedron; temper reads linear triangles, quadrilaterals and tetrahedra, "
       "with lines and points as tags. Next: write linear elements");
+}
+
+TEST_F(FilesOfTetrahedra, MfemHasThemWithAttributesAndTaggedFaces) {
+  const auto f =
+      read(make("m.mesh",
+                "MFEM mesh v1.0\n\n# of dimension 3\ndimension\n3\n\nelements\n1\n7 4 0 1 2 3\n\nboundary\n2\n"
+                "5 2 0 1 2\n6 2 0 1 3\n\nvertices\n4\n3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->dimension(), 3);
+  EXPECT_EQ(f->tetrahedra.tags, std::vector<std::int32_t>{7});
+  EXPECT_EQ(f->triangles.tags, (std::vector<std::int32_t>{5, 6}));
+  const std::string head = "MFEM mesh v1.0\ndimension\n3\nelements\n1\n1 4 0 1 2 3\nboundary\n1\n";
+  EXPECT_EQ(error_of("m.mesh", head + "1 3 0 1 2 3\n"),
+            "m.mesh:9: boundary element 0 is a quadrilateral; expected a triangle");
+  EXPECT_EQ(error_of("m.mesh", head + "1 2 0 1 9\nvertices\n4\n3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"),
+            "m.mesh:9: triangle 0 uses vertex 9, but the file has 4 vertices, numbered from 0");
+  EXPECT_EQ(error_of("m.mesh", "MFEM mesh v1.0\ndimension\n1\n"),
+            "m.mesh:3: has elements of dimension 1; expected 2 or 3");
+  EXPECT_EQ(error_of("m.mesh", "MFEM mesh v1.0\nelements\n1\n1 4 0 1 2 3\n"),
+            "m.mesh:2: expected the section dimension before elements");
 }
 
 TEST_F(FilesOfTetrahedra, FacesWithoutATagAreNoTagsInFilesOfTetgen) {

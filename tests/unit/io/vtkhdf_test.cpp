@@ -328,7 +328,7 @@ TEST_F(Vtkhdf, WhatDoesNotFitIsNamed) {
             "m.hdf: element 1 is a tetrahedron with 3 vertices");
   EXPECT_EQ(error_of(good.with(array_of<std::uint8_t>("Types", Scalar::u8, {5, 12}))),
             "m.hdf: element 1 is a hexahedron; temper reads linear triangles, quadrilaterals and tetrahedra, with "
-            "lines and points as tags. Next: split it into tetrahedra");
+            "lines and points as tags. Next: split it into tetrahedra, as triangulate() of PyVista does");
   other = good;
   other.point_data = {doubles("depth", {1, 2, 3, 4})};
   EXPECT_EQ(error_of(other), "m.hdf: point data 'depth' has 4 rows, expected 6");

@@ -170,7 +170,7 @@ TEST_F(FileTest, VtuErrorsNameTheArrayAndItsLine) {
   EXPECT_EQ(message(">5<", ">10<"), "m.vtu: element 0 is a tetrahedron with 3 vertices");
   EXPECT_EQ(message(">5<", ">13<"),
             "m.vtu: element 0 is a wedge; temper reads linear triangles, quadrilaterals and tetrahedra, with lines and "
-            "points as tags. Next: split it into tetrahedra");
+            "points as tags. Next: split it into tetrahedra, as triangulate() of PyVista does");
   EXPECT_EQ(message("offsets\" format=\"ascii\">3", "offsets\" format=\"ascii\">7"),
             "m.vtu: element 0 ends at 7 of 3 connectivity values, and starts at 0");
   EXPECT_EQ(message("\"offsets\"", "\"ofsets\""), "m.vtu: the array 'offsets' of the cells is missing");

@@ -347,8 +347,11 @@ Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
   if (auto grid = read_grid_from(in, source)) return *std::move(grid);
   if (in.find("connect1") != nullptr) return read_exodus(in, path);
   // Recognized by the name of a group, which libnetcdf does not show among variables.
-  if (is_hdf5(source.bytes) && source.bytes.find("ENS_MAA") != std::string::npos)
-    fail(ErrorCode::unsupported, path, "is a MED mesh, which temper does not read; meshio converts it");
+  for (const auto& [group, name] :
+       {std::pair("ENS_MAA", "a MED mesh"), std::pair("CGNSLibraryVersion", "a CGNS file")}) {
+    if (is_hdf5(source.bytes) && source.bytes.find(group) != std::string::npos)
+      fail(ErrorCode::unsupported, path, "is ", name, ", which temper does not read; meshio converts it");
+  }
   fail(ErrorCode::unsupported, path,
        "is NetCDF without a mesh that temper reads: neither MPAS, ICON nor a two-dimensional topology of UGRID. Next: "
        "write the mesh as UGRID with its faces");
