@@ -648,6 +648,72 @@ class Explanation(_looks.Explanation):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class FaceHeight(Record):
+    """The height of the orthocenter of a tetrahedron over one of its faces."""
+
+    vertices: tuple[int, int, int]
+    """Vertices of the face."""
+    boundary: bool
+    """The face is on the boundary."""
+    h: float
+    """Signed height, positive inside [length]."""
+    h_over_l: float
+    """The height over the length of the face."""
+    outside: bool
+    """H ≤ 0, exact."""
+    crossed: bool
+    """Its own orthocenter is strictly inside it, exact."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetReason(Record):
+    """A tetrahedron that is not well-centered."""
+
+    tetrahedron: int
+    """Number of the tetrahedron, from 0."""
+    vertices: tuple[int, int, int, int]
+    """Its vertices."""
+    weights: tuple[float, float, float, float]
+    """Their weights [length²]."""
+    at: tuple[float, float, float]
+    """Its centroid."""
+    orthocenter: tuple[float, float, float]
+    """Its orthocenter; not finite if it is flat."""
+    h_over_l: float
+    """Least h/ℓ of its faces."""
+    dihedral_deg: float
+    """Largest of its dihedral angles [degrees]."""
+    faces: list[FaceHeight]
+    """Its faces."""
+    all_on_boundary: bool
+    """All corners are on the boundary."""
+    text: str
+    """The reason in words."""
+    cure: Literal["weights", "optimize", "split_boundary"]
+    """The change that may cure it; it is not tried."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetExplanation(Record):
+    """The result of ``explain`` for tetrahedra."""
+
+    tetrahedra: int
+    """Number of tetrahedra."""
+    bad: int
+    """Number of tetrahedra with orthocenters outside."""
+    verdict: Literal["feasible", "infeasible", "undecided"]
+    """Verdict on the whole mesh with its positions and connectivity; undecided if no weights were searched for."""
+    weights_changed: int | None
+    """For feasible: number of weights that change."""
+    certificate: Certificate
+    """Proof that no weights exist, if they were searched for and there are none."""
+    all_on_boundary: int
+    """Number of bad tetrahedra with all corners on the boundary."""
+    reasons: list[TetReason]
+    """Bad tetrahedra, the worst first."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class FieldFrame(_looks.FieldFrame):
     """The frame of the fields, which are functions of (p − center) / half_size."""
 

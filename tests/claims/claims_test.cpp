@@ -1,9 +1,9 @@
 // Every claim of the paper is a test: it holds, or it is known not to; and docs/explanation/paper-claims.md says what
 // was found.
 //
-// The pages are made once for all tests of this process. The program `claims` takes fewer samples and shorter runs, which
-// give other numbers than docs/explanation/paper-claims.md has. Built with TEMPER_WHOLE_CLAIMS, it makes them in full, and
-// compares the page.
+// The pages are made once for all tests of this process. The program `claims` takes fewer samples and shorter runs,
+// which give other numbers than docs/explanation/paper-claims.md has. Built with TEMPER_WHOLE_CLAIMS, it makes them in
+// full, and compares the page.
 #include <gtest/gtest.h>
 
 #include <algorithm>

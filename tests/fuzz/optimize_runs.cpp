@@ -106,7 +106,7 @@ void insist_on_hidden(const Mesh& mesh, const OptimizeReport& report) {
   Mesh copy = mesh;
   const Restoration again = restore_regularity(copy);
   insist(again.flips == 0, "an edge is regular, or no flip can make it so");
-  insist(again.hidden == report.hidden, "the report has all vertices that are hidden");
+  insist(again.hidden == report.hidden_vertices, "the report has all vertices that are hidden");
   const auto says = [](const std::string& note) { return note.find("hidden=keep") != std::string::npos; };
   insist(std::any_of(report.notes.begin(), report.notes.end(), says) == !again.stuck.empty(), "a note says so");
 }

@@ -26,7 +26,7 @@ def other_documents(temper, folder):
     return [
         best, ("best_weights", file("best.json")),
         ("mesh_report", file("mesh.json")), ("explain", said("explain", "shoe.vtu")), ("explain", said("explain", "square.vtu")),
-        ("TetExplanation", said("explain", "tet.mesh")),
+        ("explain_tetrahedra", said("explain", "tet.mesh")),
         proof, ("weights", said("weights", "in.vtu", "-o", "w.vtu", "--mode", "elastic", "--connectivity", "search", exit=None)),
         ("weights", said("weights", "shoe.vtu", "--mode", "margin", "--connectivity", "search", "--certificate", "all.json", exit=6)),
         ("connectivity_proof", file("all.json")),

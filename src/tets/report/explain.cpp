@@ -85,7 +85,10 @@ const ReportTable& table_of(const ExplanationReport*) {
           return feasible ? std::optional(r.explanation.weights->moved) : std::nullopt;
         }},
        {"certificate", "Proof that no weights exist, if they were searched for and there are none", "",
-        [](const R& r) { return r.explanation.weights ? r.explanation.weights->certificate : Certificate(); },
+        [](const R& r) -> const Certificate& {
+          static const Certificate none;
+          return r.explanation.weights ? r.explanation.weights->certificate : none;
+        },
         ShownIn::libraries},
        {"all_on_boundary", "Number of bad tetrahedra with all corners on the boundary", "",
         of(&Explanation::all_on_boundary)},

@@ -138,7 +138,8 @@ TEST_F(Dec, BadInputWritesNothing) {
                  "'vtk' is none of npz, mtx, vtu, disv, disu, tough");
   expect_failure({"operators", "in.vtu", "-o", "out", "--format", "npz,"}, 2,
                  "'' is none of npz, mtx, vtu, disv, disu, tough");
-  expect_failure({"operators", "in.vtu", "-o", "out", "--format", "disv"}, 2, "disv, disu, tough and uge need --layers");
+  expect_failure({"operators", "in.vtu", "-o", "out", "--format", "disv"}, 2,
+                 "disv, disu, tough and uge need --layers");
   expect_failure({"operators", "in.vtu", "-o", "out", "--layers", "no.csv"}, 1, "no.csv: ");
   expect_failure({"operators", "in.vtu", "-o", "out", "--layers", "file"}, 1, "file: the file is empty");
   shell("cp in.vtu dual.vtu");

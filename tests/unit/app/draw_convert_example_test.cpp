@@ -120,7 +120,7 @@ TEST_F(Draw, TetrahedraAreCutByThePlaneThatTheUserNames) {
   }
   const Outcome mixed = temper({"draw", "two.mesh", "-o", "none.svg", "--before", "a.vtu"});
   EXPECT_EQ(mixed.exit, 1);
-  EXPECT_TRUE(contains(mixed.err, "a.vtu: has triangles, but two.mesh has tetrahedra"));
+  EXPECT_TRUE(contains(mixed.err, "a.vtu: expected tetrahedra, as in two.mesh, found triangles"));
   EXPECT_FALSE(exists("none.svg"));
 }
 

@@ -66,7 +66,7 @@ TEST_F(Errors, TetrahedraHaveTheSameVerb) {
   refused({"--dirichlet", "1=0"}, "--dirichlet is for triangles alone");
   refused({"--fields", "bump"}, "no field 'bump'; the fields of tetrahedra are ");
   make_input();
-  refused({"--against", "in.vtu"}, "in.vtu: expected tetrahedra, as in the other mesh, found triangles");
+  refused({"--against", "in.vtu"}, "in.vtu: expected tetrahedra, as in a.mesh, found triangles");
 }
 
 TEST_F(Errors, SaysTheSameAsJsonForAnyNumberOfThreads) {
