@@ -50,6 +50,11 @@ class Explanation(Record):
         return table("Explanation", rows, table("reasons", reasons) if reasons else "")
 
 
+class TetExplanation(Record):
+    def __str__(self: Any) -> str:
+        return "\n".join([Record.__str__(self), *(f"  tetrahedron {r.tetrahedron}: {r.text}" for r in self.reasons)])
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class OptimizeReport(Record):
     _meshes: tuple[Mesh, Mesh] | None = dataclasses.field(default=None, repr=False, compare=False, kw_only=True)

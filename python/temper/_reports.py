@@ -694,7 +694,7 @@ class TetReason(Record):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class TetExplanation(Record):
+class TetExplanation(_looks.TetExplanation):
     """The result of ``explain`` for tetrahedra."""
 
     tetrahedra: int
