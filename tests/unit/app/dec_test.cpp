@@ -1,4 +1,5 @@
 // temper operators.
+#include "temper/io.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -67,6 +68,13 @@ TEST_F(Dec, TetrahedraHaveTheSameVerb) {
   EXPECT_EQ(json.at("not_well_centered"), check.at("orthocenters_outside"));
   EXPECT_EQ(read("k/star1.mtx") == read("all/star1.mtx"), false);
   EXPECT_EQ(read("k/star2.mtx"), read("all/star2.mtx"));
+  // Data of tetrahedra by name, beside a tagged face whose data have another length.
+  io::MeshFile named = *io::read("a.mesh");
+  named.tetrahedra.data = {{"k", 1, std::vector<double>{2, 3}}};
+  named.triangles.add({0, 1, 4}, 7);
+  ASSERT_TRUE(io::write("named.vtu", named));
+  temper_ok({"operators", "named.vtu", "-o", "by_name", "--coefficient", "k", "--format", "mtx"});
+  EXPECT_EQ(read("by_name/star1.mtx"), read("k/star1.mtx"));
   expect_failure({"operators", "a.mesh", "-o", "b", "--coefficient", "1=2"}, 2, "there is no value for region 2");
   expect_failure({"operators", "a.mesh", "-o", "b", "--coefficient", "k"}, 2, "no data 'k' of tetrahedra");
   expect_failure({"operators", "a.mesh", "-o", "b", "--tensor", "2,0,1"}, 2,
