@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "child.hpp"
 #include "options.hpp"
+#include "temper/io.hpp"
 #include "tets/energy/star.hpp"
 #include "tets/optimize/sweeper.hpp"
 
