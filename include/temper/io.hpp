@@ -1,7 +1,7 @@
 // Mesh files. The content of a file decides its format, each format has one source file, and all data pass through.
 //
 // A MeshFile holds the content of a file in neutral arrays: points, weights, names, and cells of dimension 0 to 3 with
-// tags and data. make_mesh() and make_tet_mesh() build the mesh from it; errors use the file's own numbers and lines.
+// tags and data. make_mesh() and make_tet_mesh() build the mesh from it. Errors use the file's own numbers and lines.
 // update() puts an optimized mesh back, so that everything else in the file is written again.
 #pragma once
 

@@ -467,7 +467,7 @@ struct RunReport {
   int sweeps = 0;
   double seconds = 0;           ///< Time of the optimization alone [s]
   double objective_before = 0;  ///< Objective of the input, at the final γ
-  double objective_after = 0;   ///< The same of the result
+  double objective_after = 0;   ///< Objective of the result
   std::size_t flips = 0;        ///< Changes of connectivity without a new or removed vertex
   std::size_t vertices_removed = 0;
   std::size_t vertices_inserted = 0;
@@ -488,7 +488,7 @@ struct OptimizeReport : RunReport {
   std::vector<VertexId> hidden_vertices;
   Objective objective = Objective::accuracy;  ///< Objective that the run lowered
   std::size_t bad_before = 0;                 ///< Triangles of the input that are not well-centered, before any flip
-  std::size_t bad_after = 0;                  ///< The same of the result
+  std::size_t bad_after = 0;                  ///< Triangles of the result that are not well-centered
   SizeChange size;
   std::vector<std::string> notes;  ///< Notes for the user, in sentences
 };

@@ -1,4 +1,4 @@
-// What differs between meshes of triangles and of tetrahedra: types and nouns.
+// Meshes of triangles and of tetrahedra differ in these types and nouns.
 //
 // A verb is written once, as a template over a Subject. All else that differs are functions with one name for both
 // kinds: quality(), measure_errors(), brief_text(), … So a further kind of cells is one more Subject, and those

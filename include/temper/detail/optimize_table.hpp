@@ -103,7 +103,7 @@ struct SolverName {
 /// Returns an error if options change a part of the mesh to keep.
 [[nodiscard]] Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::string_view> keep);
 
-/// What a user set by name.
+/// The names that a user gave.
 struct GivenNames {
   std::string_view target = "any";
   std::span<const std::string_view> keep = {}, options = {};

@@ -136,7 +136,7 @@ template <class Report>
   return {&table_of(&report), std::shared_ptr<const void>(std::shared_ptr<const void>(), &report)};
 }
 
-/// A type whose values are one of those of FieldValue.
+/// A type that FieldValue can hold.
 template <FieldType::Kind kind, class Stored>
 struct PlainTraits {
   static FieldType type() { return {.kind = kind}; }

@@ -52,7 +52,7 @@ struct ExplainOptions {
 };
 
 struct Explanation {
-  Quality quality;  ///< Of the whole mesh, without its list of the worst tetrahedra
+  Quality quality;  ///< Quality of the whole mesh, without its list of the worst tetrahedra
   std::size_t bad = 0;
   std::size_t all_on_boundary = 0;      ///< Number of bad tetrahedra with all corners on the boundary
   std::optional<WeightReport> weights;  ///< Weights of the whole mesh, or the proof that none exist, if searched for
@@ -60,7 +60,7 @@ struct Explanation {
 
   /// Verdict on the whole mesh with its positions and connectivity; undecided if no weights were searched for.
   [[nodiscard]] Feasibility verdict() const { return weights ? weights->verdict : Feasibility::undecided; }
-  /// What may cure a bad tetrahedron.
+  /// The change that may cure a bad tetrahedron.
   [[nodiscard]] Cure cure(bool all_corners_on_boundary) const;
 };
 
@@ -72,7 +72,7 @@ struct ExplanationReport {
 [[nodiscard]] const ReportTable& table_of(const ExplanationReport*);
 
 /// Explains each tetrahedron that is not well-centered. Signs rest on exact predicates, and a verdict on
-/// check_certificate(). Errors: those of find_weights(). O(n), and a linear program of the whole mesh.
+/// check_certificate(). It fails as find_weights() does. O(n), and a linear program of the whole mesh.
 [[nodiscard]] Expected<Explanation> explain(const TetMesh& mesh, LpSolver& solver, const ExplainOptions& options = {});
 
 }  // namespace temper::tets

@@ -1,7 +1,8 @@
 // Places in a mesh of tetrahedra: temper/detail/location.hpp, with a dimension more.
 //
-// Data at vertices are linear on tetrahedra; data of tetrahedra are constant on each. A changed mesh gets its data from
-// them: each vertex at its new place in the former mesh, each tetrahedron from the former one that contains its middle.
+// Data at vertices are linear on tetrahedra; data of tetrahedra are constant on each. After a change, a
+// vertex gets the data at its new place in the former mesh. A tetrahedron gets those of the former tetrahedron that
+// contains its middle.
 #pragma once
 
 #include <array>
@@ -28,8 +29,9 @@ struct Place {
                                                               const IdVector<VertexId, VertexId>& vertices = {},
                                                               Executor* executor = nullptr);
 
-/// Returns, for each tetrahedron of `after`, the one of `before` that contains its centroid. If `before` has the same
-/// tetrahedron with the same number and at the same places, the result is exactly that one. The cost is the same.
+/// Returns, for each tetrahedron of `after`, the tetrahedron of `before` that contains its centroid. If `before` has
+/// the same tetrahedron with the same number and at the same places, the result is exactly that one. The cost is the
+/// same.
 [[nodiscard]] IdVector<TetId, TetId> sources_of_tetrahedra(const TetMesh& before, const TetMesh& after,
                                                            const IdVector<VertexId, VertexId>& vertices = {},
                                                            Executor* executor = nullptr);
