@@ -101,12 +101,6 @@ struct PyTetMesh {
   [[nodiscard]] const tets::TetMesh& mesh() const { return loaded->mesh; }
 };
 
-/// The entry on one of the worst tetrahedra.
-[[nodiscard]] inline Record worst_to_record(const tets::WorstTet& w) {
-  return Record()("tetrahedron", w.tetrahedron)("vertices", w.vertices)("at", std::array{w.at.x, w.at.y, w.at.z})(
-      "h_over_l", w.h_over_l)("dihedral_deg", w.dihedral_deg)("why", w.why);
-}
-
 /// The mesh of a file, and the warnings.
 [[nodiscard]] py::tuple load_tetrahedra(io::MeshFile file, Executor* executor);
 

@@ -33,8 +33,7 @@ recipes() {  # of a release that has no more than their names
 # Commits since the main branch, or the last one: the subject is `area: Do this`, and a large change has its reasons in a body.
 messages() {
   local base commit subject lines wrong=0
-  base=$(git merge-base HEAD origin/main 2>/dev/null || true)
-  if [[ -z "$base" || "$base" == "$(git rev-parse HEAD)" ]]; then base=HEAD~1; fi
+  base=$(base_of_change)
   for commit in $(git rev-list --no-merges "$base..HEAD"); do
     subject=$(git log -1 --format=%s "$commit")
     lines=$(git show --numstat --format= "$commit" | awk '{ n += $1 + $2 } END { print n + 0 }')

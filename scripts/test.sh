@@ -10,6 +10,7 @@
 # TEMPER_TEST_JOBS: parallel jobs, default all processors.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+source scripts/tools.sh
 
 part=all
 for argument in "$@"; do
@@ -118,8 +119,7 @@ names_of_tests() {
 tidy() {
   local base files
   cmake --preset clang >/dev/null || return 1
-  base=$(git merge-base HEAD origin/main 2>/dev/null || true)
-  if [[ -z "$base" || "$base" == "$(git rev-parse HEAD)" ]]; then base=HEAD~1; fi
+  base=$(base_of_change)
   mapfile -t files < <(git diff --name-only --diff-filter=d "$base" -- 'src/*.cpp' 'apps/*.cpp' ':!*/windows.cpp')
   ((${#files[@]} == 0)) || printf '%s\0' "${files[@]}" |
     xargs -0 -P "$jobs" -n 1 clang-tidy-14 -p build/clang --quiet --warnings-as-errors='*' || return 1

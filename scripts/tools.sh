@@ -1,6 +1,14 @@
 # shellcheck shell=bash
-# Tools that Debian does not have, in pinned versions, in build/tools: `source scripts/tools.sh`. Each function installs a tool if
-# it is missing, prints its path, and fails if its registry does not give it.
+# Tools that Debian does not have, in pinned versions, in build/tools: `source scripts/tools.sh`. Each function tool_NAME installs
+# a tool if it is missing, prints its path, and fails if its registry does not give it.
+
+# The commit before the change: where it left the main branch, or the one before the last.
+base_of_change() {
+  local base
+  base=$(git merge-base HEAD origin/main 2>/dev/null || true)
+  if [[ -z "$base" || "$base" == "$(git rev-parse HEAD)" ]]; then base=HEAD~1; fi
+  echo "$base"
+}
 
 tool_actionlint() {
   local version=1.7.12 folder=$PWD/build/tools/bin python

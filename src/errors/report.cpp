@@ -1,6 +1,9 @@
 // The tables of reports on errors of solvers. Errors of single fields follow error_measures() instead.
 #include "temper/detail/report.hpp"
 
+#include <initializer_list>
+#include <string_view>
+
 #include "temper/errors.hpp"
 #include "temper/tets/errors.hpp"
 
@@ -34,6 +37,31 @@ const ReportTable& table_of(const DiffusionMatrices*) {
   return table;
 }
 
+/// The table of a frame, in the plane or in space.
+template <class Frame>
+ReportTable frame_table(std::string_view name) {
+  return report_table<Frame>(
+      name, "The frame of the fields, which are functions of (p − center) / half_size.",
+      {{"center", "Its center", "", &Frame::center}, {"half_size", "> 0", "length", &Frame::half_size}});
+}
+
+/// The table of a report on errors. `of_elements`: the rows that only its kind of cells has.
+template <class R>
+ReportTable counts_table(std::string_view name, std::string_view sentence,
+                         std::initializer_list<Field<R>> of_elements) {
+  ReportTable table = report_table<R>(
+      name, sentence,
+      {{"vertices", "Number of vertices", "", &R::vertices}, {"edges", "Number of edges", "", &R::edges}});
+  table.rows.insert(table.rows.end(), of_elements.begin(), of_elements.end());
+  const std::initializer_list<Field<R>> of_both = {{"negative_star0", "Number of negative ★0", "", &R::negative_star0},
+                                                   {"frame", "Frame of the fields", "", &R::frame},
+                                                   {"matrices", "Matrices of both schemes", "", [](const R& r) {
+                                                      return ErrorMatrices{r.poisson, r.flux};
+                                                    }}};
+  table.rows.insert(table.rows.end(), of_both.begin(), of_both.end());
+  return table;
+}
+
 }  // namespace
 
 const ReportTable& table_of(const ErrorNorms*) {
@@ -46,9 +74,7 @@ const ReportTable& table_of(const ErrorNorms*) {
 }
 
 const ReportTable& table_of(const FieldFrame*) {
-  static const ReportTable table = report_table<FieldFrame>(
-      "FieldFrame", "The frame of the fields, which are functions of (p − center) / half_size.",
-      {{"center", "Its center", "", &FieldFrame::center}, {"half_size", "> 0", "length", &FieldFrame::half_size}});
+  static const ReportTable table = frame_table<FieldFrame>("FieldFrame");
   return table;
 }
 
@@ -94,49 +120,33 @@ const ReportTable& table_of(const DiffusionErrors*) {
 
 const ReportTable& table_of(const ErrorReport*) {
   using R = ErrorReport;
-  static const ReportTable table = report_table<R>(
+  static const ReportTable table = counts_table<R>(
       "ErrorCounts", "The mesh and the matrices of ``measure_errors``.",
-      {{"vertices", "Number of vertices", "", &R::vertices},
-       {"edges", "Number of edges", "", &R::edges},
-       {"triangles", "Number of triangles", "", &R::triangles},
+      {{"triangles", "Number of triangles", "", &R::triangles},
        {"not_well_centered", "Number of triangles that are not well-centered, exact", "", &R::not_well_centered},
        {"non_regular_edges", "Number of interior edges of negative dual length, exact", "", &R::non_regular_edges},
        {"negative_boundary_duals", "Number of boundary edges with a negative dual length, exact", "",
-        &R::negative_boundary_duals},
-       {"negative_star0", "Number of negative ★0", "", &R::negative_star0},
-       {"frame", "Frame of the fields", "", &R::frame},
-       {"matrices", "Matrices of both schemes", "", [](const R& r) {
-          return ErrorMatrices{r.poisson, r.flux};
-        }}});
+        &R::negative_boundary_duals}});
   return table;
 }
 
 namespace tets {
 
 const ReportTable& table_of(const FieldFrame*) {
-  static const ReportTable table = report_table<FieldFrame>(
-      "TetFieldFrame", "The frame of the fields, which are functions of (p − center) / half_size.",
-      {{"center", "Its center", "", &FieldFrame::center}, {"half_size", "> 0", "length", &FieldFrame::half_size}});
+  static const ReportTable table = frame_table<FieldFrame>("TetFieldFrame");
   return table;
 }
 
 const ReportTable& table_of(const ErrorReport*) {
   using R = ErrorReport;
-  static const ReportTable table = report_table<R>(
+  static const ReportTable table = counts_table<R>(
       "TetErrorCounts", "The mesh and the matrices of ``measure_errors``, of tetrahedra.",
-      {{"vertices", "Number of vertices", "", &R::vertices},
-       {"edges", "Number of edges", "", &R::edges},
-       {"faces", "Number of faces", "", &R::faces},
+      {{"faces", "Number of faces", "", &R::faces},
        {"tetrahedra", "Number of tetrahedra", "", &R::tetrahedra},
        {"not_well_centered", "Number of tetrahedra that are not well-centered, exact", "", &R::not_well_centered},
        {"non_regular_faces", "Number of interior faces of negative dual length, exact", "", &R::non_regular_faces},
        {"negative_boundary_duals", "Number of boundary faces with a negative dual length, exact", "",
-        &R::negative_boundary_duals},
-       {"negative_star0", "Number of negative ★0", "", &R::negative_star0},
-       {"frame", "Frame of the fields", "", &R::frame},
-       {"matrices", "Matrices of both schemes", "", [](const R& r) {
-          return ErrorMatrices{r.poisson, r.flux};
-        }}});
+        &R::negative_boundary_duals}});
   return table;
 }
 

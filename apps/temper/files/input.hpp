@@ -53,9 +53,14 @@ struct ReadingOptions {
 };
 /// Reads a file and builds its mesh; Failure when anything is wrong with it.
 [[nodiscard]] AnyInput read_any(const std::string& path, const ReadingOptions& options = {});
-/// The same for verbs of triangles alone.
+/// Reads the input of a command, and refuses options that were given for other cells.
+[[nodiscard]] inline AnyInput read_any(const Command& command, const std::string& path, ReadingOptions options) {
+  options.expect = [&](CellKinds cells) { command.expect_for(cells, path); };
+  return read_any(path, options);
+}
+/// Reads a mesh of triangles, for verbs that take no other cells.
 [[nodiscard]] Input read_input(const std::string& path, const ReadingOptions& options = {});
-/// The same of a file that was read.
+/// Builds the mesh of triangles of a file that was read.
 [[nodiscard]] Input make_input(io::MeshFile file, const std::string& path, const ReadingOptions& options);
 /// Another mesh of the same kind as `input`; Failure if it is of the other kind.
 template <class Subject>

@@ -110,8 +110,7 @@ class Checks {
   }
 
   void add(const std::string& path) {
-    const auto expect = [&](CellKinds cells) { command_.expect_for(cells, path); };
-    AnyInput any = read_any(path, {s_.projection, {}, threads_.get(), s_.heights, expect});
+    AnyInput any = read_any(command_, path, {s_.projection, {}, threads_.get(), s_.heights});
     std::visit([this](auto& input) { check(input); }, any);
   }
 

@@ -228,8 +228,7 @@ Exit run_draw(const Arguments& arguments) {
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
-  const auto expect = [&](CellKinds cells) { command.expect_for(cells, s.input); };
-  AnyInput any = read_any(s.input, {s.projection, {}, nullptr, s.heights, expect});
+  AnyInput any = read_any(command, s.input, {s.projection, {}, nullptr, s.heights});
   std::visit([&](auto& input) { draw(s, input, outputs); }, any);
   return Exit::done;
 }

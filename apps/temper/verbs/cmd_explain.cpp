@@ -105,8 +105,7 @@ Exit run_explain(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
 
-  const auto expect = [&](CellKinds cells) { command.expect_for(cells, s.input); };
-  const AnyInput any = read_any(s.input, {s.projection, {}, nullptr, s.heights, expect});
+  const AnyInput any = read_any(command, s.input, {s.projection, {}, nullptr, s.heights});
   std::visit(
       [&](const auto& input) {
         print_warnings(input.warnings());

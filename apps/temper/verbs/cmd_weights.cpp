@@ -280,7 +280,7 @@ io::AnyCertificate read_certificate(const std::string& path, const io::VertexOfP
   return or_fail(io::certificate_from_json(text.str(), vertex_of_point, path, cell));
 }
 
-// What differs between the kinds of cells.
+// These functions differ between the kinds of cells.
 
 std::span<const ConstraintsInfo> constraints_of(const Mesh& /*mesh*/) { return constraints_table(); }
 std::span<const ConstraintsInfo> constraints_of(const tets::TetMesh& /*mesh*/) { return tets::constraints_table(); }
@@ -384,7 +384,7 @@ Exit end(const WeightsSettings& s, WeightsRecord& record, Outputs& outputs) {
   return record.search && record.search->end == SearchEnd::stopped ? Exit::stopped_early : Exit::infeasible;
 }
 
-/// Finds weights of the mesh: that of the input, or that of a search for connectivity, which is null without one.
+/// Finds weights of `mesh`. The mesh comes from the input, or from `search`, which is null without a search.
 template <class Subject>
 Exit find(const WeightsSettings& s, InputOf<Subject>& input, const typename Subject::Mesh& mesh,
           const ConnectivityReport* search, Outputs& outputs) {
@@ -438,8 +438,7 @@ Exit run_weights(const Arguments& arguments) {
   if (!s.output.path.empty()) outputs.expect_mesh(s.output, {s.edges});
   outputs.expect_text("--certificate", s.certificate, {s.input, s.edges});
 
-  const auto expect = [&](CellKinds cells) { command.expect_for(cells, s.input); };
-  AnyInput any = read_any(s.input, {s.projection, {}, nullptr, s.heights, expect});
+  AnyInput any = read_any(command, s.input, {s.projection, {}, nullptr, s.heights});
   return std::visit(
       [&](auto& input) {
         outputs.expect_place(s.output, input.file);

@@ -17,7 +17,7 @@ template <class Subject>
 struct RunResults {
   typename Subject::Quality before, after;
   typename Subject::Mesh second;  ///< the input if it is improved in place and something shows it; else the result
-  const typename Subject::Mesh* improved = nullptr;
+  const typename Subject::Mesh *original = nullptr, *improved = nullptr;  ///< each is this one or that of the input
   typename Subject::OptimizeReport report;
   std::vector<Outcome> outcomes;  ///< of --require
   bool lacks_flips = false;       ///< edges are not regular that should be
@@ -54,12 +54,6 @@ void prepare(const Command& command, const OptimizeSettings& settings, const Tet
 void improve(const OptimizeSettings& settings, Input& input, const RunFiles& files, RunResults<Triangles>& results);
 void improve(const OptimizeSettings& settings, TetInput& input, const RunFiles& files, RunResults<Tetrahedra>& results);
 
-/// The mesh before the run, if something shows it.
-[[nodiscard]] inline const Mesh& original(const Input& /*input*/, const RunResults<Triangles>& r) { return r.second; }
-[[nodiscard]] inline const tets::TetMesh& original(const TetInput& input, const RunResults<Tetrahedra>& /*results*/) {
-  return input.mesh();
-}
-
 /// Frees a mesh that the file has, unless something shows it.
 inline void release_mesh(Input& input, RunResults<Triangles>& /*results*/) { input.loaded.mesh = {}; }
 inline void release_mesh(TetInput& input, RunResults<Tetrahedra>& results) {
@@ -79,7 +73,7 @@ inline void release_mesh(TetInput& input, RunResults<Tetrahedra>& results) {
 [[nodiscard]] inline std::span<const std::string> notes_of(const OptimizeReport& report) { return report.notes; }
 [[nodiscard]] inline std::span<const std::string> notes_of(const tets::OptimizeReport& /*report*/) { return {}; }
 
-/// What --details adds between the measures and the end.
+/// The measures of the mesh that --details adds.
 [[nodiscard]] std::string measures_text(const OptimizeSettings& settings, const RunResults<Triangles>& results);
 [[nodiscard]] std::string measures_text(const OptimizeSettings& settings, const RunResults<Tetrahedra>& results);
 

@@ -42,6 +42,7 @@ void improve(const OptimizeSettings& s, TetInput& input, const RunFiles& files, 
   hooks.error = tets::discretization_error(s.options.scheme);
   results.second = input.mesh();
   results.improved = &results.second;
+  results.original = &input.mesh();
   Expected<tets::OptimizeReport> report = optimize(results.second, s.options, hooks);
   if (!report) throw as_failure(spell_options(report.error()));
   results.report = *std::move(report);

@@ -130,6 +130,7 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
   measuring.executor = files.threads;
   Mesh& mesh = input.loaded.mesh;
   results.improved = &mesh;
+  results.original = &results.second;
   const Mesh* seen = &mesh;
   std::optional<Mesh> there;
   const auto look_at = [&] {

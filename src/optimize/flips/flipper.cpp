@@ -186,7 +186,6 @@ VertexId Flipper::insert(WorkingCopy& work, TriangleId t, const WeightedPoint& p
   const VertexId v = insert_in_triangle(mesh_, t, p);
   work.name_new();
   recorder_.inserted(v, corners, before, after);
-  ++changes_.inserted;
   return v;
 }
 
@@ -201,7 +200,6 @@ VertexId Flipper::split(WorkingCopy& work, HalfedgeId h, const WeightedPoint& p,
   work.name_new();
   if (divided) work.divided.emplace(work.order->vertices[v], *divided);
   recorder_.split(v, quad, before, after);
-  ++changes_.inserted;
   return v;
 }
 

@@ -58,14 +58,13 @@ class Flipper {
 
   /// The changes since the last call of take_changes().
   struct Changes {
-    std::size_t flips = 0, removed = 0, inserted = 0;
+    std::size_t flips = 0, removed = 0;
   };
   Changes take_changes() { return std::exchange(changes_, {}); }
   /// Adds the changes of another flipper on the same mesh.
   void add(const Changes& more) {
     changes_.flips += more.flips;
     changes_.removed += more.removed;
-    changes_.inserted += more.inserted;
   }
   [[nodiscard]] const Changes& changes() const { return changes_; }
   /// From now on, appends the halfedges that steps flip to the log, in order; null ends that.
