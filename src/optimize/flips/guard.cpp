@@ -104,7 +104,7 @@ GuardValues Guard::of_pair(const Triangle& s, std::size_t k, const Triangle& t) 
   if (!limits_->has_flow) return v;
   const FlowLink link = link_across(s, k, t);
   v.value[GuardValues::orthogonality] = -link.orthogonality;
-  v.value[GuardValues::flow_link] = link.length;
+  v.value[GuardValues::link] = link.length;
   return v;
 }
 

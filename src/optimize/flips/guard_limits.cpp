@@ -33,7 +33,7 @@ GuardValues bounds_of(const GuardOptions& o) {
   const double step = o.depth.empty() ? 0 : o.step.value_or(nothing);
   bounds.value[GuardValues::crossing] = bounds.value[GuardValues::edge_crossing] = squared(step);
   bounds.value[GuardValues::orthogonality] = -kRoundedOrthogonality;
-  bounds.value[GuardValues::flow_link] = kSmallFlowLink;
+  bounds.value[GuardValues::link] = kSmallFlowLink;
   return bounds;
 }
 

@@ -17,7 +17,7 @@ constexpr std::array<MeasureRow, GuardValues::kMeasures> kRows = {{{GuardValues:
                                                                    {GuardValues::crossing, 2},
                                                                    {GuardValues::edge_crossing, 2},
                                                                    {GuardValues::orthogonality, -1},
-                                                                   {GuardValues::flow_link, 1},
+                                                                   {GuardValues::link, 1},
                                                                    {GuardValues::edges_alike, 2},
                                                                    {GuardValues::angles_alike, 1},
                                                                    {GuardValues::spacing, 1},

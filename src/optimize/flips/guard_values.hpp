@@ -18,7 +18,7 @@ struct GuardValues {
     crossing,       ///< Time² of a wave across a triangle [s²]
     edge_crossing,  ///< Time² of a wave along an edge [s²]
     orthogonality,  ///< −|cosine| of the angle between an inner edge and its flow link
-    flow_link,      ///< Length of the flow link over the mean size of its cells
+    link,           ///< Length of the flow link over the mean size of its cells
     edges_alike,    ///< (Shortest over longest edge of a triangle)²
     angles_alike,   ///< Least over largest angle of a triangle
     spacing,        ///< Mean distance of a vertex from its neighbors

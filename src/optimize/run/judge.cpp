@@ -121,7 +121,7 @@ bool meets_limits_of_client(const Mesh& input, const Settings& settings) {
   wanted.value.fill(-kInfinity);
   if (measured.has_flow) {
     wanted.value[GuardValues::orthogonality] = -kAdvisedOrthogonality;
-    wanted.value[GuardValues::flow_link] = kSmallFlowLink;
+    wanted.value[GuardValues::link] = kSmallFlowLink;
   } else {
     constexpr double kRoundedCosine = 1e-9;  // of a right angle in coordinates of double precision
     wanted.value[GuardValues::cosine] = 1 - kRoundedCosine;
