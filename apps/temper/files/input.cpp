@@ -82,7 +82,7 @@ void load(TetInput& input, const ReadingOptions& options) {
 }
 
 template <class Subject>
-InputOf<Subject> made_of(io::MeshFile file, const std::string& path, const ReadingOptions& options) {
+InputOf<Subject> made_of(io::MeshFile&& file, const std::string& path, const ReadingOptions& options) {
   if (options.expect) options.expect(Subject::cells);
   InputOf<Subject> input;
   input.path = path;
@@ -212,7 +212,7 @@ std::string VertexNames::point(std::size_t index) const {
   return file_ ? file_->point(in_file(index)) : InputNames::point(in_file(index));
 }
 std::string VertexNames::triangle(std::size_t index) const {
-  return file_ ? file_->triangle(index) : temper::InputNames::triangle(index);
+  return file_ ? file_->triangle(index) : InputNames::triangle(index);
 }
 std::string VertexNames::tetrahedron(std::size_t index) const {
   return file_ ? file_->tetrahedron(index) : InputNames::tetrahedron(index);

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -114,9 +113,7 @@ struct GivenNames {
 /// Returns the table.
 [[nodiscard]] std::span<const OptionGroup> option_groups();
 /// Returns all rows of the table.
-[[nodiscard]] inline auto option_rows() {
-  return option_groups() | std::views::transform(&OptionGroup::rows) | std::views::join;
-}
+[[nodiscard]] std::span<const OptionRow> option_rows();
 /// Returns the row with this name, or null.
 [[nodiscard]] const OptionRow* find_option(std::string_view name);
 

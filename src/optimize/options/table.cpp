@@ -4,6 +4,7 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "energy/edge_kernels.hpp"
 #include "optimize/options/settings.hpp"
@@ -516,5 +517,14 @@ std::span<const std::string_view> words_of(Objective) { return kNames<Objective>
 std::string_view name(Objective objective) { return kNames<Objective>[static_cast<std::size_t>(objective)]; }
 
 std::span<const OptionGroup> option_groups() { return kGroups; }
+
+std::span<const OptionRow> option_rows() {
+  static const std::vector<OptionRow> all = [] {
+    std::vector<OptionRow> rows;
+    for (const OptionGroup& group : kGroups) rows.insert(rows.end(), group.rows.begin(), group.rows.end());
+    return rows;
+  }();
+  return all;
+}
 
 }  // namespace temper
