@@ -63,6 +63,12 @@ std::string TetInput::element_number(tets::TetId t) const {
   return last_word(names->tetrahedron(t.index));
 }
 template <class Subject>
+std::string InputOf<Subject>::vertex_numbers(std::span<const VertexId> vertices, std::string_view between) const {
+  std::string text;
+  for (const VertexId v : vertices) text += (text.empty() ? "" : std::string(between)) + vertex_number(v);
+  return text;
+}
+template <class Subject>
 std::vector<std::string> InputOf<Subject>::warnings() const {
   return all_of(file.warnings, loaded.warnings);
 }
@@ -118,9 +124,9 @@ template <class Subject>
 InputOf<Subject> read_like(const InputOf<Subject>& input, const std::string& path, const ReadingOptions& options) {
   AnyInput other = read_any(path, options);
   if (auto* const same = std::get_if<InputOf<Subject>>(&other)) return std::move(*same);
-  throw Failure(Exit::bad_input, fmt::format("{}: expected {}, as in {}, found {}", path, Subject::elements, input.path,
-                                             name(Subject::cells == CellKinds::triangles ? CellKinds::tetrahedra
-                                                                                         : CellKinds::triangles)));
+  const CellKinds found = std::visit([](const auto& read) { return cells_of(read.file); }, other);
+  throw Failure(Exit::bad_input,
+                fmt::format("{}: expected {}, as in {}, found {}", path, Subject::elements, input.path, name(found)));
 }
 template Input read_like(const Input& input, const std::string& path, const ReadingOptions& options);
 template TetInput read_like(const TetInput& input, const std::string& path, const ReadingOptions& options);

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "exit.hpp"
-#include "files/subject.hpp"
 #include "options/options.hpp"
+#include "subject.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper::app {
 
-/// A mesh that was read: of triangles or of tetrahedra, as its Subject says.
+/// A mesh that was read, of the cells that its Subject says.
 template <class Subject>
 struct InputOf {
   std::string path;
@@ -32,6 +32,8 @@ struct InputOf {
   /// The file's own number of a vertex, as text.
   [[nodiscard]] std::string vertex_number(VertexId v) const;
   [[nodiscard]] std::string element_number(typename Subject::Element e) const;
+  /// The numbers of several vertices.
+  [[nodiscard]] std::string vertex_numbers(std::span<const VertexId> vertices, std::string_view between) const;
   /// Warnings of reading and of building.
   [[nodiscard]] std::vector<std::string> warnings() const;
 };

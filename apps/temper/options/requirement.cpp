@@ -12,7 +12,7 @@
 namespace temper::app {
 namespace {
 
-/// Triangles or tetrahedra that are not well-centered, as the reports count them.
+/// Elements that are not well-centered, as the reports count them.
 constexpr std::string_view kBad = "bad";
 
 /// "energy.BP.1", and the place of that energy.
@@ -21,14 +21,16 @@ struct EnergyKey {
   std::size_t row, star;
 };
 
-std::vector<EnergyKey> energy_keys() {
-  std::vector<EnergyKey> keys;
-  for (std::size_t row = 0; row < energies().size(); ++row) {
-    for (std::size_t star = 0; star < 3; ++star) {
-      keys.push_back({"energy." + std::string(energies()[row].name) + "." + std::to_string(star), row, star});
+const std::vector<EnergyKey>& energy_keys() {
+  static const std::vector<EnergyKey> all = [] {
+    std::vector<EnergyKey> keys;
+    for (std::size_t row = 0; row < energies().size(); ++row) {
+      for (std::size_t star = 0; star < 3; ++star)
+        keys.push_back({fmt::format("energy.{}.{}", energies()[row].name, star), row, star});
     }
-  }
-  return keys;
+    return keys;
+  }();
+  return all;
 }
 
 template <class Row>
@@ -39,31 +41,29 @@ const Row* find_row(std::span<const Row> rows, std::string_view key) {
   return nullptr;
 }
 
-/// A measure without its function, for meshes of either kind.
+/// A measure without its function, for meshes of any kind.
 struct Key {
   std::string_view key, alias;
   Preference better;
   bool count;
   std::optional<double> wanted;
+  bool energy = false;  ///< one of many, which lists do not show
 
   /// Says whether a plain = stands for a comparison. No value equals a length or a volume, which are rounded.
   [[nodiscard]] bool has_equal_sign() const { return count || better != Preference::equal; }
 };
+
 std::vector<Key> keys_of(CellKinds kind) {
   std::vector<Key> keys;
-  const auto add = [&](const auto& rows) {
-    for (const auto& row : rows) keys.push_back({row.key, row.alias, row.better, row.count, row.wanted});
-  };
-  kind == CellKinds::triangles ? add(quality_measures()) : add(tets::quality_measures());
+  with_subject(kind, [&]<class Subject>(Subject) {
+    for (const auto& row : Subject::measures()) keys.push_back({row.key, row.alias, row.better, row.count, row.wanted});
+    if constexpr (requires(typename Subject::Quality quality) { quality.energy; }) {
+      for (const EnergyKey& energy : energy_keys())
+        keys.push_back({energy.key, {}, Preference::less, false, std::nullopt, true});
+    }
+  });
   keys.push_back({kBad, {}, Preference::equal, true, 0});
   return keys;
-}
-
-bool is_energy_key(std::string_view key) {
-  for (const EnergyKey& energy : energy_keys()) {
-    if (energy.key == key) return true;
-  }
-  return false;
 }
 
 [[noreturn]] void refuse(const std::string& message) { throw BadValue(message); }
@@ -73,32 +73,36 @@ bool is_energy_key(std::string_view key) {
   const std::string_view word = key.substr(0, key.find_first_of("_."));
   std::vector<std::string_view> names, alike;
   for (const Key& each : keys) {
+    if (each.energy) continue;
     if (!each.alias.empty()) names.push_back(each.alias);
     names.push_back(each.key);
     if (each.key.starts_with(word)) alike.push_back(each.alias.empty() ? each.key : each.alias);
   }
   const std::string_view guess = nearest(key, names);
-  if (kind == CellKinds::triangles && word == "energy") alike.emplace_back("energy.NAME.STAR, such as energy.BP.1");
+  if (word == "energy" && std::ranges::any_of(keys, &Key::energy))
+    alike.emplace_back("energy.NAME.STAR, such as energy.BP.1");
   const std::string near = !guess.empty()   ? fmt::format(", did you mean '{}'?", guess)
                            : !alike.empty() ? fmt::format("; there are {}.", join(alike))
                                             : ".";
   refuse(fmt::format("unknown key '{}'{}{} Next: temper check --help lists all keys", key,
-                     kind == CellKinds::triangles ? "" : " for tetrahedra", near));
+                     kind == kEachKind[0] ? "" : fmt::format(" for {}", name(kind)), near));
+}
+
+const Key& find_key(std::string_view key, std::span<const Key> keys, CellKinds kind) {
+  if (const Key* const found = find_row(keys, key)) return *found;
+  refuse_key(key, keys, kind);
 }
 
 /// A key alone stands for the usual requirement.
 Requirement usual_requirement(std::string_view key, std::span<const Key> keys, CellKinds kind) {
-  const Key* measure = find_row(keys, key);
   if (key.empty()) refuse("'' is not key=value");
-  if (measure == nullptr && kind == CellKinds::triangles && is_energy_key(key))
-    refuse(fmt::format("'{0}' has no usual value: write {0}<=VALUE", key));
-  if (measure == nullptr) refuse_key(key, keys, kind);
-  if (!measure->wanted) {
-    refuse(measure->has_equal_sign()
-               ? fmt::format("'{0}' has no usual value: write {0}{1}VALUE", key, sign(measure->better))
+  const Key& measure = find_key(key, keys, kind);
+  if (!measure.wanted) {
+    refuse(measure.has_equal_sign()
+               ? fmt::format("'{0}' has no usual value: write {0}{1}VALUE", key, sign(measure.better))
                : fmt::format("'{0}' has no usual value: write {0}>=VALUE or {0}<=VALUE", key));
   }
-  return {std::string(key), std::string(measure->key), measure->better, *measure->wanted};
+  return {std::string(key), std::string(measure.key), measure.better, *measure.wanted};
 }
 
 Requirement parse_requirement(std::string_view text, std::span<const Key> keys, CellKinds kind) {
@@ -108,19 +112,12 @@ Requirement parse_requirement(std::string_view text, std::span<const Key> keys, 
   const bool two = text.substr(at).size() > 1 && text[at + 1] == '=';
   if (!two && text[at] != '=') refuse(fmt::format("'{}': write <= or >=, both include the value", text));
 
-  Requirement requirement;
-  requirement.text = text;
-  const Key* measure = find_row(keys, key);
-  const bool known = measure != nullptr || (kind == CellKinds::triangles && is_energy_key(key));
-  if (!known) refuse_key(key, keys, kind);
-  requirement.key = measure != nullptr ? measure->key : key;
-  if (!two && measure != nullptr && !measure->has_equal_sign())
+  const Key& measure = find_key(key, keys, kind);
+  Requirement requirement = {std::string(text), std::string(measure.key), measure.better, 0};
+  if (!two && !measure.has_equal_sign())
     refuse(fmt::format("'{0}': {1} is rounded, so that = decides nothing: write {1}>=VALUE or {1}<=VALUE", text, key));
-  if (two) {
+  if (two)
     requirement.better = text[at] == '<' ? Preference::less : text[at] == '>' ? Preference::larger : Preference::equal;
-  } else {
-    requirement.better = measure != nullptr ? measure->better : Preference::less;
-  }
   const std::string_view value = text.substr(at + (two ? 2 : 1));
   const std::optional<double> number = parse_number(value);
   if (!number) refuse(fmt::format("'{}': '{}' is not a number", text, value));
@@ -128,19 +125,16 @@ Requirement parse_requirement(std::string_view text, std::span<const Key> keys, 
   return requirement;
 }
 
-double value_of(const std::string& key, const Quality& quality) {
+template <class AnyQuality>
+double value_of(const std::string& key, const AnyQuality& quality) {
   if (key == kBad) return static_cast<double>(bad_elements(quality));
-  if (const QualityMeasure* measure = find_row(quality_measures(), key)) return measure->of(quality);
-  for (const EnergyKey& energy : energy_keys()) {
-    if (energy.key == key) return quality.energy[energy.row][energy.star];
+  if (const auto* measure = find_row(SubjectOf<AnyQuality>::measures(), key)) return measure->of(quality);
+  if constexpr (requires { quality.energy; }) {
+    for (const EnergyKey& energy : energy_keys()) {
+      if (energy.key == key) return quality.energy[energy.row][energy.star];
+    }
   }
   return std::nan("");
-}
-
-double value_of(const std::string& key, const tets::Quality& quality) {
-  if (key == kBad) return static_cast<double>(bad_elements(quality));
-  const tets::QualityMeasure* measure = find_row(tets::quality_measures(), key);
-  return measure == nullptr ? std::nan("") : measure->of(quality);
 }
 
 bool holds(Preference better, double found, double wanted) {
@@ -160,48 +154,19 @@ bool contradict(const Requirement& a, const Requirement& b) {
   return a.key == b.key && a.better != Preference::less && b.better != Preference::larger && a.value > b.value;
 }
 
-/// The keys and short names of fields of reports, for --help.
+/// The keys and short names of fields of reports, as a sentence of the help.
 std::string requirement_keys(CellKinds kind) {
-  std::string text;
-  for (const Key& each : keys_of(kind)) {
-    if (each.key == kBad) continue;
-    if (!text.empty()) text += ", ";
+  std::string text = kind == kEachKind[0] ? "Keys: " : fmt::format("Keys for {}: ", name(kind));
+  const std::vector<Key> keys = keys_of(kind);
+  for (const Key& each : keys) {
+    if (each.energy || each.key == kBad) continue;
     text += each.key;
-    if (!each.alias.empty()) text += fmt::format(" ({})", each.alias);
+    text += each.alias.empty() ? ", " : fmt::format(" ({}), ", each.alias);
   }
-  return text;
+  return text + (std::ranges::any_of(keys, &Key::energy) ? "energy.NAME.STAR, bad. " : "bad. ");
 }
 
-template <class Report>
-std::vector<Outcome> outcomes_of(std::span<const Requirement> requirements, const Report& quality) {
-  std::vector<Outcome> outcomes;
-  for (const Requirement& requirement : requirements) {
-    const double found = value_of(requirement.key, quality);
-    outcomes.push_back({requirement, found, holds(requirement.better, found, requirement.value)});
-  }
-  return outcomes;
-}
-
-}  // namespace
-
-std::size_t bad_elements(const Quality& quality) {
-  const double good = quality.well_centered_fraction * static_cast<double>(quality.triangles);
-  return quality.triangles - std::min(quality.triangles, static_cast<std::size_t>(std::lround(good)));
-}
-
-std::size_t bad_elements(const tets::Quality& quality) { return quality.orthocenters_outside; }
-
-Option& add_requirements(Command& command, std::vector<std::string>& lists, bool tetrahedra) {
-  return add_texts(
-      command, "--require", "LIST", Values::repeated, lists,
-      "Requirements key=value, key>=value or key<=value, separated by commas. If one is not met, exit with 3. For a "
-      "count, key=value requires equality. For a minimum or a fraction it means at least, and for a maximum or an "
-      "energy at most. A key alone stands for its usual value, see docs/reference/limits.md. Keys: " +
-          requirement_keys(CellKinds::triangles) + ", energy.NAME.STAR, bad" +
-          (tetrahedra ? ". Keys for tetrahedra: " + requirement_keys(CellKinds::tetrahedra) + ", bad" : "") +
-          ". The key bad counts elements that are not well-centered");
-}
-
+/// The requirements of the lists; Failure (bad usage of the verb) for a key or a value that makes no sense.
 std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists, CellKinds kind) {
   const std::vector<Key> keys = keys_of(kind);
   std::vector<Requirement> requirements;
@@ -220,27 +185,83 @@ std::vector<Requirement> parse_requirements(std::string_view verb, std::span<con
   return requirements;
 }
 
+/// Says whether all keys of the lists are of this kind of meshes.
 bool knows_keys(std::span<const std::string> lists, CellKinds kind) {
   const std::vector<Key> keys = keys_of(kind);
   const auto is_known = [&](std::string_view word) {
     const std::string_view key = word.substr(0, word.find_first_of("<>="));
-    return find_row<Key>(keys, key) != nullptr || (kind == CellKinds::triangles && is_energy_key(key));
+    return find_row<Key>(keys, key) != nullptr;
   };
   return std::ranges::all_of(lists,
                              [&](const std::string& list) { return std::ranges::all_of(separated(list), is_known); });
+}
+
+}  // namespace
+
+std::size_t bad_elements(const Quality& quality) {
+  const double good = quality.well_centered_fraction * static_cast<double>(quality.triangles);
+  return quality.triangles - std::min(quality.triangles, static_cast<std::size_t>(std::lround(good)));
+}
+
+std::size_t bad_elements(const tets::Quality& quality) { return quality.orthocenters_outside; }
+
+Option& add_requirements(Command& command, std::vector<std::string>& lists) {
+  std::string sentence =
+      "Requirements key=value, key>=value or key<=value, separated by commas. If one is not met, exit with 3. For a "
+      "count, key=value requires equality. For a minimum or a fraction it means at least, and for a maximum or an "
+      "energy at most. A key alone stands for its usual value, see docs/reference/limits.md. ";
+  for (const CellKinds kind : kEachKind) sentence += requirement_keys(kind);
+  return add_texts(command, "--require", "LIST", Values::repeated, lists,
+                   sentence + "The key bad counts elements that are not well-centered");
+}
+
+RequirementLists::RequirementLists(std::string_view verb, std::span<const std::string> lists) {
+  bool makes_sense = false;
+  std::string lacking;
+  const OfKind* knowing = nullptr;
+  for (std::size_t i = 0; i < of_kinds_.size(); ++i) {
+    OfKind& kind = of_kinds_[i];
+    try {
+      kind.list = parse_requirements(verb, lists, kEachKind[i]);
+      makes_sense = true;
+    } catch (const Failure& failure) {
+      kind.refusal = failure;
+    }
+    if (!knows_keys(lists, kEachKind[i]))
+      lacking += fmt::format("{}{}", lacking.empty() ? "" : " or ", name(kEachKind[i]));
+    else if (knowing == nullptr)
+      knowing = &kind;
+  }
+  if (makes_sense) return;
+  const Failure& refusal = *(knowing == nullptr ? of_kinds_.front() : *knowing).refusal;
+  std::string text = refusal.what();
+  if (knowing != nullptr && !lacking.empty())
+    text.insert(std::min(text.find('\n'), text.size()), ". Not all of these keys exist for " + lacking);
+  throw Failure(refusal.exit, text);
+}
+
+const std::vector<Requirement>& RequirementLists::of(CellKinds kind) const {
+  const OfKind& found = of_kinds_[static_cast<std::size_t>(std::ranges::find(kEachKind, kind) - kEachKind)];
+  if (found.refusal) throw Failure(*found.refusal);
+  return found.list;
 }
 
 std::string_view sign(Preference better) {
   return better == Preference::equal ? "=" : better == Preference::larger ? ">=" : "<=";
 }
 
-std::vector<Outcome> judge(std::span<const Requirement> requirements, const Quality& quality) {
-  return outcomes_of(requirements, quality);
+template <class AnyQuality>
+std::vector<Outcome> judge(std::span<const Requirement> requirements, const AnyQuality& quality) {
+  std::vector<Outcome> outcomes;
+  for (const Requirement& requirement : requirements) {
+    const double found = value_of(requirement.key, quality);
+    outcomes.push_back({requirement, found, holds(requirement.better, found, requirement.value)});
+  }
+  return outcomes;
 }
-
-std::vector<Outcome> judge(std::span<const Requirement> requirements, const tets::Quality& quality) {
-  return outcomes_of(requirements, quality);
-}
+#define TEMPER_MAKE(S) template std::vector<Outcome> judge(std::span<const Requirement>, const S::Quality&);
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
 
 Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path) {
   Exit exit = Exit::done;

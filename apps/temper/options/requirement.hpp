@@ -8,7 +8,8 @@
 // most. Other numbers, such as the volume, have none. A key alone stands for the usual value of its row.
 #pragma once
 
-#include <algorithm>
+#include <array>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,8 +17,7 @@
 #include <vector>
 
 #include "help/command.hpp"
-#include "temper/quality.hpp"
-#include "temper/tets/quality.hpp"
+#include "subject.hpp"
 
 namespace temper::app {
 
@@ -36,65 +36,35 @@ struct Outcome {
 };
 [[nodiscard]] const ReportTable& table_of(const Outcome*);
 
-/// Triangles that are not well-centered: the key `bad`, and the number of all reports.
+/// Elements that are not well-centered: the key `bad`, and the number of all reports.
 [[nodiscard]] std::size_t bad_elements(const Quality& quality);
 [[nodiscard]] std::size_t bad_elements(const tets::Quality& quality);
 
-/// --require, with all keys in its help. `tetrahedra`: the verb takes both kinds of meshes.
-Option& add_requirements(Command& command, std::vector<std::string>& lists, bool tetrahedra = false);
-/// The requirements of the lists; Failure (bad usage of the verb) for a key or a value that makes no sense.
-[[nodiscard]] std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists,
-                                                          CellKinds kind = CellKinds::triangles);
+/// --require, with the keys of each kind of cells in its help.
+Option& add_requirements(Command& command, std::vector<std::string>& lists);
 
-/// Says whether all keys of the lists are of this kind of meshes.
-[[nodiscard]] bool knows_keys(std::span<const std::string> lists, CellKinds kind);
-
-/// The requirements on meshes of both kinds, for verbs that see the kind when they have read the file.
+/// The requirements on meshes of each kind, for verbs that see the kind when they have read the file.
 class RequirementLists {
  public:
   RequirementLists() = default;
-  /// Lists may make sense for one kind alone. Failure if they make sense for none; it is about the kind that knows
-  /// their keys, and says that the other kind does not.
-  RequirementLists(std::string_view verb, std::span<const std::string> lists)
-      : triangles_(verb, lists, CellKinds::triangles), tetrahedra_(verb, lists, CellKinds::tetrahedra) {
-    if (!triangles_.refusal || !tetrahedra_.refusal) return;
-    const bool of_triangles = knows_keys(lists, CellKinds::triangles),
-               of_tets = knows_keys(lists, CellKinds::tetrahedra);
-    const Failure& refusal = of_triangles || !of_tets ? *triangles_.refusal : *tetrahedra_.refusal;
-    std::string text = refusal.what();
-    if (of_triangles != of_tets) {
-      const std::string other = of_triangles ? "tetrahedra" : "triangles";
-      text.insert(std::min(text.find('\n'), text.size()), ". Not all of these keys exist for " + other);
-    }
-    throw Failure(refusal.exit, text);
-  }
+  /// Lists may make sense for one kind alone. Failure (bad usage of the verb) if they make sense for none; it is about
+  /// a kind that knows their keys, and says that the others do not.
+  RequirementLists(std::string_view verb, std::span<const std::string> lists);
   /// Failure when the lists make no sense for this kind.
-  [[nodiscard]] const std::vector<Requirement>& of(CellKinds kind) const {
-    const Parsed& parsed = kind == CellKinds::triangles ? triangles_ : tetrahedra_;
-    if (parsed.refusal) throw Failure(*parsed.refusal);
-    return parsed.list;
-  }
+  [[nodiscard]] const std::vector<Requirement>& of(CellKinds kind) const;
 
  private:
-  struct Parsed {
-    Parsed() = default;
-    Parsed(std::string_view verb, std::span<const std::string> lists, CellKinds kind) {
-      try {
-        list = parse_requirements(verb, lists, kind);
-      } catch (const Failure& failure) {
-        refusal = failure;
-      }
-    }
+  struct OfKind {
     std::vector<Requirement> list;
     std::optional<Failure> refusal;
   };
-  Parsed triangles_, tetrahedra_;
+  std::array<OfKind, std::size(kEachKind)> of_kinds_;  // in the order of the kinds
 };
 
 /// "=", ">=" or "<=".
 [[nodiscard]] std::string_view sign(Preference better);
-[[nodiscard]] std::vector<Outcome> judge(std::span<const Requirement> requirements, const Quality& quality);
-[[nodiscard]] std::vector<Outcome> judge(std::span<const Requirement> requirements, const tets::Quality& quality);
+template <class AnyQuality>
+[[nodiscard]] std::vector<Outcome> judge(std::span<const Requirement> requirements, const AnyQuality& quality);
 /// Lists on standard error the requirements that are not met; Exit::requirement when there are some.
 [[nodiscard]] Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path);
 

@@ -161,7 +161,7 @@ std::vector<std::string> dec_warnings(const DecRecord& record) {
     warnings.push_back(
         fmt::format("{}: {}: {} interior and {} boundary entries of star1 and {} of star0 "
                     "are negative. Next: temper optimize makes them positive",
-                    record.path, well_centered(s.not_well_centered, s.triangles), s.negative_star1,
+                    record.path, well_centered<Triangles>(s.not_well_centered, s.triangles), s.negative_star1,
                     s.negative_boundary_star1, s.negative_star0));
   }
   const auto edges = [](std::size_t n) { return n == 1 ? "1 interior edge" : fmt::format("{} interior edges", n); };

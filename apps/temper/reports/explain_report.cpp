@@ -40,25 +40,32 @@ std::string wrapped(const std::string& text, std::size_t indent, const TextStyle
   return result;
 }
 
+/// What weights can do if nothing else changes.
+template <class Subject>
+std::string on_weights(Feasibility verdict, std::size_t changed, std::size_t vertices, double margin) {
+  if (verdict == Feasibility::undecided)
+    return "It is not known if weights alone can make all of them well-centered.\n";
+  if (verdict == Feasibility::infeasible)
+    return fmt::format("If no vertex moves and no {} flips, no weights make all of them well-centered.\n",
+                       Subject::link);
+  return fmt::format("If no vertex moves, weights make all of them well-centered: {} of {} change (margin {:.4g}).\n",
+                     changed, vertices, margin);
+}
+
+std::string rest(std::size_t shown, std::size_t all) {
+  return all > shown ? fmt::format("and {} more (--limit {} or --json has all)\n", all - shown, all) : "";
+}
+
+// Of triangles.
+
 constexpr const char* kKeepsWeights =
-    "The mesh has quadrilaterals, so weights cannot change. Vertices have to move. Next: temper optimize IN -o OUT";
+    "The mesh has quadrilaterals, so weights cannot change. Vertices have to move. Next: temper optimize IN -o OUT\n";
 
 std::string headline(const Explanation& e, const Input& input) {
-  std::string text = fmt::format("{}: {}\n", input.path, well_centered(e.bad, e.triangles));
+  const std::string text = fmt::format("{}: {}\n", input.path, well_centered<Triangles>(e.bad, e.triangles));
   if (e.bad == 0) return text;
-  switch (e.verdict) {
-    case Feasibility::feasible:
-      return text +
-             fmt::format(
-                 "If no vertex moves, weights make all of them well-centered: {} of {} change (margin {:.4g}).\n",
-                 e.changed, input.mesh().n_vertices(), e.margin);
-    case Feasibility::infeasible:
-      return text + "If no vertex moves and no edge flips, no weights make all of them well-centered.\n";
-    case Feasibility::undecided:
-      if (count_quadrilaterals(input.mesh()) > 0) return text + kKeepsWeights + "\n";
-      return text + "It is not known if weights alone can make all of them well-centered.\n";
-  }
-  return text;
+  if (e.verdict == Feasibility::undecided && count_quadrilaterals(input.mesh()) > 0) return text + kKeepsWeights;
+  return text + on_weights<Triangles>(e.verdict, e.changed, input.mesh().n_vertices(), e.margin);
 }
 
 std::string summary(const Explanation& e) {
@@ -158,8 +165,45 @@ std::string section(const Section& kind, const Explanation& e, const Input& inpu
     if (!which(reason) || number == limit) continue;
     text += paragraph(reason, ++number, input, style);
   }
-  if (all > limit) text += fmt::format("and {} more (--limit {} or --json has all)\n", all - limit, all);
+  return text + rest(limit, all);
+}
+
+// Of tetrahedra.
+
+/// The command that may cure a tetrahedron.
+std::string command(tets::Cure cure) {
+  if (cure == tets::Cure::weights) return "temper weights";
+  return cure == tets::Cure::optimize ? "temper optimize" : "temper optimize --boundary split";
+}
+
+std::string summary(const tets::Explanation& e) {
+  const std::size_t movable = e.bad - e.all_on_boundary;
+  std::string text;
+  if (movable > 0)
+    text += fmt::format("  {} with an inner vertex, whose move may help. Try: {}\n", movable, command(e.cure(false)));
+  if (e.all_on_boundary > 0)
+    text += fmt::format("  {} with all corners on the boundary: weights, flips and new vertices may help. Try: {}\n",
+                        e.all_on_boundary, command(e.cure(true)));
   return text;
+}
+
+std::string paragraph(const TetInput& input, const tets::Reason& reason, std::size_t number, const TextStyle& style) {
+  const std::string blank(kIndent, ' ');
+  const auto name = [&](VertexId v) { return input.vertex_number(v); };
+  const std::string why = fmt::format(
+      "Tetrahedron {} ({}) at ({:.9g}, {:.9g}, {:.9g}): {}.", input.element_number(reason.tetrahedron),
+      input.vertex_numbers(reason.vertices, " "), reason.at.x, reason.at.y, reason.at.z, renumber(reason.why, name));
+  std::string text = pad_left(std::to_string(number) + ". ", kIndent) + wrapped(why, kIndent, style);
+  const auto [a, b, c, d] = input.mesh().points(reason.tetrahedron);
+  const Vec3 center = reason.orthocenter;
+  text += fmt::format("{}orthocenter ({:.9g}, {:.9g}, {:.9g}), weights {:.6g} {:.6g} {:.6g} {:.6g}\n", blank, center.x,
+                      center.y, center.z, a.w, b.w, c.w, d.w);
+  for (const tets::FaceHeight& face : reason.faces) {
+    text += fmt::format("{}{} {}: h = {:.4g}, h/l = {:.4g}{}{}\n", blank, face.boundary ? "boundary face" : "face",
+                        input.vertex_numbers(face.vertices, "-"), face.h, face.h_over_l,
+                        face.outside ? ", outside" : "", face.crossed ? "" : ", does not contain its own orthocenter");
+  }
+  return text + blank + "- Try: " + command(reason.cure) + "\n";
 }
 
 }  // namespace
@@ -185,6 +229,28 @@ std::string explanation_json(const Explanation& e, const Input& input) {
       cures[k]["command"] = how.empty() ? Json(nullptr) : Json(how);
     }
   }
+  return dump(json);
+}
+
+std::string explanation_text(const tets::Explanation& e, const TetInput& input, std::size_t /*limit*/,
+                             const TextStyle& style) {
+  std::string text = fmt::format("{}: {}\n", input.path, verdict(e.quality));
+  if (e.bad == 0) return text;
+  text += on_weights<Tetrahedra>(e.verdict(), e.weights ? e.weights->moved : 0, e.quality.vertices,
+                                 e.weights ? e.weights->margin : 0);
+  text += summary(e);
+  const std::size_t shown = e.reasons.size();
+  if (shown == 0) return text;
+  text += e.bad > 1 ? "\nBad tetrahedra, worst first\n" : "\nThe bad tetrahedron\n";
+  for (std::size_t i = 0; i < shown; ++i) text += paragraph(input, e.reasons[i], i + 1, style);
+  text += rest(shown, e.bad);
+  return text;
+}
+
+std::string explanation_json(const tets::Explanation& e, const TetInput& input) {
+  Json json = {{"schema", kSchema}};
+  json.update(json_of(tets::ExplanationReport{input.mesh(), e}, input.points));
+  for (std::size_t i = 0; i < e.reasons.size(); ++i) json["reasons"][i]["command"] = command(e.reasons[i].cure);
   return dump(json);
 }
 

@@ -61,61 +61,44 @@ io::AnyHtmlMesh html_mesh(const tets::TetMesh& mesh, const tets::InputNames* nam
 
 std::string in_a_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// The members of a page of `check`, with the user's numbers.
-template <class AnyInput, class AnyQuality>
-Json check_page(const std::string& command, const AnyInput& input, const AnyQuality& quality,
-                const std::string& measures) {
-  Json json = {{"verb", "check"},
-               {"version", version()},
-               {"command", command},
-               {"after", Json::parse(measures)},
-               {"warnings", input.warnings()}};
-  use_numbers(json["after"], quality, input.names.get());
-  return json;
+/// Adds reasons, for the kinds of cells whose pages have them. `searched`: otherwise the list is empty.
+void add_reasons(Json& json, const Mesh& mesh, const Quality& quality, const InputNames* names, bool searched = true) {
+  json["reasons"] = searched ? reasons_json(mesh, quality, names) : Json::array();
 }
-
-template <class Page>
-Json optimize_page(const Page& page) {
-  Json json = {{"verb", "optimize"}};
-  json.update(Json::parse(optimize_json(page.record)));
-  forget_time(json);
-  use_numbers(json["before"], page.record.before, page.input.names.get());
-  use_numbers(json["after"], page.record.after, page.input.file.numbering.get());
-  return json;
-}
-
-template <class Page>
-std::string optimize_html(const Page& page, const Json& json) {
-  return io::html_report({html_mesh(page.mesh, page.input.file.numbering.get()),
-                          html_mesh(page.before, page.input.names.get()), page.input.path, in_a_line(json)});
-}
-
-template <class AnyInput>
-std::string check_html(const AnyInput& input, const Json& json) {
-  return io::html_report({html_mesh(input.mesh(), input.names.get()), std::nullopt, input.path, in_a_line(json)});
-}
+void add_reasons(Json& /*json*/, const tets::TetMesh& /*mesh*/, const tets::Quality& /*quality*/,
+                 const tets::InputNames* /*names*/, bool /*searched*/ = true) {}
 
 }  // namespace
 
-std::string check_html(const std::string& command, const Input& input, const Quality& quality) {
-  Json json = check_page(command, input, quality, quality_json(quality, input.points));
-  json["reasons"] = reasons_json(input.mesh(), quality, input.names.get());
-  return check_html(input, json);
+template <class Subject>
+std::string check_html(const std::string& command, const InputOf<Subject>& input,
+                       const typename Subject::Quality& quality) {
+  Json json = {{"verb", "check"},
+               {"version", version()},
+               {"command", command},
+               {"after", json_of(quality, input.points)},
+               {"warnings", input.warnings()}};
+  use_numbers(json["after"], quality, input.names.get());
+  add_reasons(json, input.mesh(), quality, input.names.get());
+  return io::html_report({html_mesh(input.mesh(), input.names.get()), std::nullopt, input.path, in_a_line(json)});
 }
-
-std::string check_html(const std::string& command, const TetInput& input, const tets::Quality& quality) {
-  return check_html(input, check_page(command, input, quality, quality_json(quality, input.points)));
-}
-
-std::string optimize_html(const OptimizePage& page) {
-  Json json = optimize_page(page);
+template <class Subject>
+std::string optimize_html(const RunPage<Subject>& page) {
+  const auto& [record, input, before, mesh] = page;
+  const auto* const names = input.file.numbering.get();
+  Json json = {{"verb", "optimize"}};
+  json.update(Json::parse(optimize_json(record)));
+  forget_time(json);
+  use_numbers(json["before"], record.before, input.names.get());
+  use_numbers(json["after"], record.after, names);
   // A run that has to end now searches for no reasons.
-  const bool ends_now = stopped_early(page.record.report.stopped);
-  json["reasons"] =
-      ends_now ? Json::array() : reasons_json(page.mesh, page.record.after, page.input.file.numbering.get());
-  return optimize_html(page, json);
+  add_reasons(json, mesh, record.after, names, !stopped_early(record.report.stopped));
+  return io::html_report({html_mesh(mesh, names), html_mesh(before, input.names.get()), input.path, in_a_line(json)});
 }
-
-std::string optimize_html(const TetOptimizePage& page) { return optimize_html(page, optimize_page(page)); }
+#define TEMPER_MAKE(S)                                                                       \
+  template std::string check_html(const std::string&, const InputOf<S>&, const S::Quality&); \
+  template std::string optimize_html(const RunPage<S>&);
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
 
 }  // namespace temper::app

@@ -100,7 +100,7 @@ std::string mesh_json(const MeshRecord& r) {
   json["seconds"] = r.made.report.seconds;
   json["stopped"] = temper::name(r.made.report.stopped);
   json["notes"] = r.made.notes;
-  json["mesh"] = Json::parse(quality_json(r.quality, {}));
+  json["mesh"] = json_of(r.quality);
   return dump(json);
 }
 

@@ -33,36 +33,33 @@ struct TextStyle {
 /// The library's sentences, for a terminal without UTF-8.
 [[nodiscard]] std::string in_ascii(std::string text);
 
-/// Counts, margins, all energies, histograms, the worst triangles: `temper check --details`.
-[[nodiscard]] std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style);
+/// Counts, margins, all energies, histograms, the worst elements: `temper check --details`.
+template <class Subject>
+[[nodiscard]] std::string quality_text(const typename Subject::Quality& quality, const InputOf<Subject>& input,
+                                       const TextStyle& style);
 
-/// Counts, margins and the energies of one star, before and after: `temper optimize --details`.
-[[nodiscard]] std::string comparison_text(const Quality& before, const Quality& after, int star,
-                                          const TextStyle& style);
-[[nodiscard]] std::string comparison_text(const tets::Quality& before, const tets::Quality& after);
+/// Counts and margins, before and after: `temper optimize --details`.
+template <class AnyQuality>
+[[nodiscard]] std::string comparison_text(const AnyQuality& before, const AnyQuality& after);
+/// Further rows of it: the energies of one star.
+[[nodiscard]] std::string energies_text(const Quality& before, const Quality& after, int star, const TextStyle& style);
 
 /// The few numbers that most users need, of a mesh, or before and after a run.
-[[nodiscard]] std::string brief_text(const Quality& quality);
-[[nodiscard]] std::string brief_text(const Quality& before, const Quality& after);
+template <class AnyQuality>
+[[nodiscard]] std::string brief_text(const AnyQuality& quality);
+template <class AnyQuality>
+[[nodiscard]] std::string brief_text(const AnyQuality& before, const AnyQuality& after);
 
 /// "46 of 96 triangles are not well-centered, every edge is regular"
-[[nodiscard]] std::string verdict(const Quality& quality);
-
-// The same of meshes of tetrahedra.
-[[nodiscard]] std::string quality_text(const tets::Quality& quality, const TetInput& input, const TextStyle& style);
-[[nodiscard]] std::string brief_text(const tets::Quality& quality);
-[[nodiscard]] std::string brief_text(const tets::Quality& before, const tets::Quality& after);
-[[nodiscard]] std::string verdict(const tets::Quality& quality);
-
-/// "5 vertices, 2 triangles", or "5 vertices (0 inside), 2 tetrahedra".
-[[nodiscard]] std::string mesh_size(const Quality& quality);
-[[nodiscard]] std::string mesh_size(const tets::Quality& quality);
-/// "5 vertices, 2 tetrahedra".
-[[nodiscard]] std::string mesh_size(const Mesh& mesh);
-[[nodiscard]] std::string mesh_size(const tets::TetMesh& mesh);
-
+template <class AnyQuality>
+[[nodiscard]] std::string verdict(const AnyQuality& quality);
 /// "2 of 9 triangles are not well-centered", or "all 9 triangles are well-centered".
-[[nodiscard]] std::string well_centered(std::size_t bad, std::size_t triangles);
+template <class Subject>
+[[nodiscard]] std::string well_centered(std::size_t bad, std::size_t elements);
+
+/// Of a mesh or of its quality: "5 vertices, 2 triangles". It may say how many vertices are inside.
+template <class MeshOrQuality>
+[[nodiscard]] std::string mesh_size(const MeshOrQuality& of);
 
 /// "Next: temper explain out.vtu", if an element of the file is not well-centered.
 template <class AnyQuality>
@@ -87,36 +84,31 @@ inline void show_places_of_file(const tets::Quality& /*quality*/, const TetInput
 /// The first number of a report: it changes when a key is removed or its meaning changes. docs/schema has the keys.
 inline constexpr int kSchema = 1;
 
-/// The numbers of a mesh. `points`: mesh vertex → point of the file; empty when they are the same.
-[[nodiscard]] std::string quality_json(const Quality& quality, std::span<const std::size_t> points);
-[[nodiscard]] std::string quality_json(const tets::Quality& quality, std::span<const std::size_t> points);
-/// `temper check --json`: these, and the outcomes of --require.
-[[nodiscard]] std::string check_json(const std::string& path, const Quality& quality,
-                                     std::span<const std::size_t> points, std::span<const Outcome> outcomes);
-[[nodiscard]] std::string check_json(const std::string& path, const tets::Quality& quality,
+/// `temper check --json`: the numbers of a mesh, and the outcomes of --require. `points`: mesh vertex → point of the
+/// file; empty when they are the same.
+template <class AnyQuality>
+[[nodiscard]] std::string check_json(const std::string& path, const AnyQuality& quality,
                                      std::span<const std::size_t> points, std::span<const Outcome> outcomes);
 /// One JSON text made of several.
 [[nodiscard]] std::string json_list(std::span<const std::string> reports);
 
 /// Everything in the report of `temper optimize --write`.
-template <class AnyQuality, class AnyReport>
+template <class Subject>
 struct RunRecord {
   std::string command;
   std::string options;   ///< JSON: options that were given, which --options reads
   std::string settings;  ///< JSON: all options with their values
-  const AnyQuality& before;
+  const typename Subject::Quality& before;
   std::span<const std::size_t> points_before;  ///< of IN; OUT has the points of the mesh
-  const AnyQuality& after;
-  const AnyReport& report;
+  const typename Subject::Quality& after;
+  const typename Subject::OptimizeReport& report;
   const io::DataReport& data;
   std::span<const Outcome> outcomes;  ///< of --require, on `after`
   std::vector<std::string> warnings;
   std::string solver_errors = {};  ///< JSON, of --measure-errors; or nothing
 };
-using OptimizeRecord = RunRecord<Quality, OptimizeReport>;
-using TetOptimizeRecord = RunRecord<tets::Quality, tets::OptimizeReport>;
-[[nodiscard]] std::string optimize_json(const OptimizeRecord& record);
-[[nodiscard]] std::string optimize_json(const TetOptimizeRecord& record);
+template <class Subject>
+[[nodiscard]] std::string optimize_json(const RunRecord<Subject>& record);
 
 /// The history of `temper optimize --write`: a header and one line per sweep.
 [[nodiscard]] std::string history_csv(std::span<const SweepRecord> history);
@@ -126,20 +118,19 @@ using TetOptimizeRecord = RunRecord<tets::Quality, tets::OptimizeReport>;
 // took.
 
 /// `quality`: with the list of the worst elements for the page.
-[[nodiscard]] std::string check_html(const std::string& command, const Input& input, const Quality& quality);
-[[nodiscard]] std::string check_html(const std::string& command, const TetInput& input, const tets::Quality& quality);
+template <class Subject>
+[[nodiscard]] std::string check_html(const std::string& command, const InputOf<Subject>& input,
+                                     const typename Subject::Quality& quality);
 
 /// `before`, `mesh`: of record.before and after. The file of the input is the output's by now.
-template <class Record, class AnyInput, class AnyMesh>
+template <class Subject>
 struct RunPage {
-  const Record& record;
-  const AnyInput& input;
-  const AnyMesh& before;
-  const AnyMesh& mesh;
+  const RunRecord<Subject>& record;
+  const InputOf<Subject>& input;
+  const typename Subject::Mesh& before;
+  const typename Subject::Mesh& mesh;
 };
-using OptimizePage = RunPage<OptimizeRecord, Input, Mesh>;
-using TetOptimizePage = RunPage<TetOptimizeRecord, TetInput, tets::TetMesh>;
-[[nodiscard]] std::string optimize_html(const OptimizePage& page);
-[[nodiscard]] std::string optimize_html(const TetOptimizePage& page);
+template <class Subject>
+[[nodiscard]] std::string optimize_html(const RunPage<Subject>& page);
 
 }  // namespace temper::app

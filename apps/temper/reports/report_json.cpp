@@ -21,37 +21,14 @@ const ReportTable& table_of(const Outcome*) {
   return table;
 }
 
-namespace {
-
-template <class Report>
-std::string dump_check(const std::string& path, const Report& quality, Points points,
+template <class AnyQuality>
+std::string check_json(const std::string& path, const AnyQuality& quality, std::span<const std::size_t> points,
                        std::span<const Outcome> outcomes) {
   Json json = {{"schema", kSchema}, {"file", path}};
   json.update(json_of(quality, points));
   json["requirements"] = json_of({field_list(outcomes, false)});
   return dump(json);
 }
-
-}  // namespace
-
-std::string quality_json(const Quality& quality, std::span<const std::size_t> points) {
-  return dump(json_of(quality, points));
-}
-
-std::string quality_json(const tets::Quality& quality, std::span<const std::size_t> points) {
-  return dump(json_of(quality, points));
-}
-
-std::string check_json(const std::string& path, const Quality& quality, std::span<const std::size_t> points,
-                       std::span<const Outcome> outcomes) {
-  return dump_check(path, quality, points, outcomes);
-}
-
-std::string check_json(const std::string& path, const tets::Quality& quality, std::span<const std::size_t> points,
-                       std::span<const Outcome> outcomes) {
-  return dump_check(path, quality, points, outcomes);
-}
-
 std::string json_list(std::span<const std::string> reports) {
   std::string list;
   for (const std::string& report : reports)
@@ -59,11 +36,9 @@ std::string json_list(std::span<const std::string> reports) {
   return (list.empty() ? "[" : list + "\n") + "]\n";
 }
 
-namespace {
-
-/// The report of a run, with what else the program knows. `data`: the rows for its kind of mesh.
-template <class Record>
-std::string run_json(const Record& record, const ReportView& data) {
+/// The report of a run, with what else the program knows.
+template <class Subject>
+std::string optimize_json(const RunRecord<Subject>& record) {
   Json json = {{"schema", kSchema}, {"command", record.command}, {"version", version()}};
   json["options"] = Json::parse(record.options);
   json["settings"] = Json::parse(record.settings);
@@ -74,7 +49,7 @@ std::string run_json(const Record& record, const ReportView& data) {
   for (const auto& [key, value] : fields.items()) {
     const bool is_history = key == "history";
     if ((key == "notes" || is_history) && !json.contains("data")) {
-      json["data"] = json_of(data);
+      json["data"] = json_of({&Subject::table_of_data(&record.data), view_of(record.data).report});
       if (!record.solver_errors.empty()) json["errors"] = Json::parse(record.solver_errors);
     }
     if (is_history) json["warnings"] = record.warnings;
@@ -83,14 +58,11 @@ std::string run_json(const Record& record, const ReportView& data) {
   return dump(json);
 }
 
-}  // namespace
-
-std::string optimize_json(const TetOptimizeRecord& record) {
-  const ReportView data = {&table_for_tetrahedra(&record.data), view_of(record.data).report};
-  return run_json(record, data);
-}
-
-std::string optimize_json(const OptimizeRecord& record) { return run_json(record, view_of(record.data)); }
+#define TEMPER_MAKE(S)                                                                                      \
+  template std::string check_json(const std::string&, const S::Quality&, Points, std::span<const Outcome>); \
+  template std::string optimize_json(const RunRecord<S>&);
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
 
 std::string history_csv(std::span<const SweepRecord> history) {
   std::vector<ReportView> sweeps;

@@ -36,8 +36,9 @@ std::string star_name(std::size_t star, const TextStyle& style) {
   return fmt::format("{}{}", style.utf8 ? "★" : "star ", star);
 }
 
+/// The energies, which not all kinds of cells have.
 std::string energy_table(const Quality& quality, const TextStyle& style) {
-  std::string text = pad_right("energy", 8);
+  std::string text = "\n" + pad_right("energy", 8);
   for (std::size_t star = 0; star < 3; ++star) text += pad_left(star_name(star, style), kEnergyColumns);
   text += "\n";
   for (std::size_t row = 0; row < energies().size(); ++row) {
@@ -47,6 +48,8 @@ std::string energy_table(const Quality& quality, const TextStyle& style) {
   }
   return text;
 }
+
+std::string energy_table(const tets::Quality& /*quality*/, const TextStyle& /*style*/) { return {}; }
 
 /// A bar of count / most of the full width; a count other than 0 always shows something.
 std::string bar(std::size_t count, std::size_t most, const TextStyle& style) {
@@ -102,6 +105,9 @@ std::string beside(const std::vector<std::vector<std::string>>& panels) {
 
 std::string ell(const TextStyle& style) { return style.utf8 ? "ℓ" : "l"; }
 
+const Histogram& angles(const Quality& quality) { return quality.histograms.angles; }
+const Histogram& angles(const tets::Quality& quality) { return quality.histograms.dihedrals; }
+
 std::string histograms(const std::vector<std::vector<std::string>>& panels, const TextStyle& style) {
   std::string text;
   if (style.columns >= 90 + 2 * kPanelGap) {
@@ -123,29 +129,19 @@ std::string why_text(const std::string& why, const std::function<std::string(Ver
   return text;
 }
 
-std::string worst_text(const tets::Quality& quality, const TetInput& input, const TextStyle& style) {
-  if (quality.worst.empty()) return "";
-  std::string text = "\nworst tetrahedra\n";
-  for (const tets::WorstTet& worst : quality.worst) {
-    const auto name = [&input](VertexId v) { return input.vertex_number(v); };
-    text += fmt::format("  {} ({} {} {} {}) at {:.9g} {:.9g} {:.9g}: h/l {:.4g}, largest dihedral {:.5g}\n",
-                        input.element_number(worst.tetrahedron), name(worst.vertices[0]), name(worst.vertices[1]),
-                        name(worst.vertices[2]), name(worst.vertices[3]), worst.at.x, worst.at.y, worst.at.z,
-                        worst.h_over_l, worst.dihedral_deg);
-    text += why_text(worst.why, name, style);
-  }
-  return text;
-}
+std::string place_text(Vec2 at) { return fmt::format("{:.9g} {:.9g}", at.x, at.y); }
+std::string place_text(Vec3 at) { return fmt::format("{:.9g} {:.9g} {:.9g}", at.x, at.y, at.z); }
 
-std::string worst_text(const Quality& quality, const Input& input, const TextStyle& style) {
+template <class Subject>
+std::string worst_text(const typename Subject::Quality& quality, const InputOf<Subject>& input,
+                       const TextStyle& style) {
   if (quality.worst.empty()) return "";
-  std::string text = "\nworst triangles\n";
-  for (const WorstTriangle& worst : quality.worst) {
-    const auto name = [&input](VertexId v) { return input.vertex_number(v); };
-    text += fmt::format("  {} ({} {} {}) at {:.9g} {:.9g}: h/l {:.4g}, largest angle {:.5g}\n",
-                        input.element_number(worst.triangle), name(worst.vertices[0]), name(worst.vertices[1]),
-                        name(worst.vertices[2]), worst.at.x, worst.at.y, worst.h_over_l, worst.angle_deg);
-    text += why_text(worst.why, name, style);
+  std::string text = fmt::format("\nworst {}\n", Subject::elements);
+  for (const auto& [element, vertices, at, h_over_l, angle, why] : quality.worst) {
+    text += fmt::format("  {} ({}) at {}: h/l {:.4g}, largest {} {:.5g}\n", input.element_number(element),
+                        input.vertex_numbers(vertices, " "), place_text(at), h_over_l, Subject::angle, angle);
+    text += why_text(
+        why, [&input](VertexId v) { return input.vertex_number(v); }, style);
   }
   return text;
 }
@@ -153,31 +149,38 @@ std::string worst_text(const Quality& quality, const Input& input, const TextSty
 /// A row of the short report.
 template <class Report>
 struct BriefRow {
-  const char* label;
+  std::string label;
   std::string (*text)(const Report&);
 };
 
 std::string brief_number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "infinite"; }
 
-const BriefRow<tets::Quality> kBriefTetRows[] = {
-    {"tetrahedra not well-centered", [](const tets::Quality& q) { return std::to_string(q.orthocenters_outside); }},
-    {"least h/l", [](const tets::Quality& q) { return brief_number(q.min_h_over_l); }},
-    {"completely well-centered",
-     [](const tets::Quality& q) { return fmt::format("{:.1f} %", 100 * q.completely_well_centered_fraction); }},
-    {"transmissibility, max/median",
-     [](const tets::Quality& q) { return brief_number(q.max_transmissibility_over_median); }},
-    {"dihedral angles (degrees)",
-     [](const tets::Quality& q) { return fmt::format("{:.1f} - {:.1f}", q.min_dihedral_deg, q.max_dihedral_deg); }},
-};
+std::string range(double low, double high) { return fmt::format("{:.1f} - {:.1f}", low, high); }
 
-const BriefRow<Quality> kBriefRows[] = {
-    {"triangles not well-centered", [](const Quality& q) { return std::to_string(bad_elements(q)); }},
-    {"least margin", [](const Quality& q) { return brief_number(std::min(q.min_h_over_l, q.min_d_over_l)); }},
-    {"transmissibility, max/median", [](const Quality& q) { return brief_number(q.max_transmissibility_over_median); }},
-    {"angles (degrees)",
-     [](const Quality& q) { return fmt::format("{:.1f} - {:.1f}", q.min_angle_deg, q.max_angle_deg); }},
-    {"least edge/size", [](const Quality& q) { return brief_number(q.min_edge_over_size); }},
-};
+/// The rows below the number of bad elements.
+std::vector<BriefRow<tets::Quality>> further_rows(const tets::Quality& /*quality*/) {
+  using Q = tets::Quality;
+  return {{"least h/l", [](const Q& q) { return brief_number(q.min_h_over_l); }},
+          {"completely well-centered",
+           [](const Q& q) { return fmt::format("{:.1f} %", 100 * q.completely_well_centered_fraction); }},
+          {"transmissibility, max/median", [](const Q& q) { return brief_number(q.max_transmissibility_over_median); }},
+          {"dihedral angles (degrees)", [](const Q& q) { return range(q.min_dihedral_deg, q.max_dihedral_deg); }}};
+}
+std::vector<BriefRow<Quality>> further_rows(const Quality& /*quality*/) {
+  using Q = Quality;
+  return {{"least margin", [](const Q& q) { return brief_number(std::min(q.min_h_over_l, q.min_d_over_l)); }},
+          {"transmissibility, max/median", [](const Q& q) { return brief_number(q.max_transmissibility_over_median); }},
+          {"angles (degrees)", [](const Q& q) { return range(q.min_angle_deg, q.max_angle_deg); }},
+          {"least edge/size", [](const Q& q) { return brief_number(q.min_edge_over_size); }}};
+}
+
+template <class AnyQuality>
+std::vector<BriefRow<AnyQuality>> brief_rows(const AnyQuality& quality) {
+  std::vector<BriefRow<AnyQuality>> rows = further_rows(quality);
+  rows.insert(rows.begin(), {fmt::format("{} not well-centered", SubjectOf<AnyQuality>::elements),
+                             [](const AnyQuality& q) { return std::to_string(bad_elements(q)); }});
+  return rows;
+}
 
 }  // namespace
 
@@ -211,134 +214,91 @@ void show_places_of_file(Quality& quality, const Input& input) {
   for (WorstTriangle& worst : quality.worst) worst.at = place_in_file(input.file, worst.at);
 }
 
-namespace {
-
-std::string well_centered(std::size_t bad, std::size_t all, const char* one, const char* several) {
+template <class Subject>
+std::string well_centered(std::size_t bad, std::size_t elements) {
   if (bad == 0)
-    return all == 1 ? fmt::format("the {} is well-centered", one)
-                    : fmt::format("all {} {} are well-centered", all, several);
-  return fmt::format("{} of {} {} not well-centered", bad, plural(all, one, several), bad == 1 ? "is" : "are");
+    return elements == 1 ? fmt::format("the {} is well-centered", Subject::element)
+                         : fmt::format("all {} {} are well-centered", elements, Subject::elements);
+  return fmt::format("{} of {} {} not well-centered", bad, plural(elements, Subject::element, Subject::elements),
+                     bad == 1 ? "is" : "are");
 }
 
-}  // namespace
-
-std::string well_centered(std::size_t bad, std::size_t triangles) {
-  return well_centered(bad, triangles, "triangle", "triangles");
-}
-
-std::string verdict(const tets::Quality& quality) {
-  return well_centered(quality.orthocenters_outside, quality.tetrahedra, "tetrahedron", "tetrahedra") +
-         (quality.non_regular_faces == 0
-              ? ", every face is regular"
-              : ", " + plural(quality.non_regular_faces, "face is not regular", "faces are not regular"));
-}
-
-namespace {
-
-std::string mesh_size(std::size_t vertices, std::size_t elements, std::string_view one, std::string_view several) {
-  return fmt::format("{}, {}", plural(vertices, "vertex", "vertices"), plural(elements, one, several));
-}
-
-}  // namespace
-
-std::string mesh_size(const Mesh& mesh) {
-  return mesh_size(mesh.n_vertices(), mesh.n_triangles(), "triangle", "triangles");
-}
-std::string mesh_size(const tets::TetMesh& mesh) {
-  return mesh_size(mesh.n_vertices(), mesh.n_tetrahedra(), "tetrahedron", "tetrahedra");
-}
-std::string mesh_size(const Quality& quality) {
-  return mesh_size(quality.vertices, quality.triangles, "triangle", "triangles");
-}
-std::string mesh_size(const tets::Quality& quality) {
-  return fmt::format("{} ({} inside), {}", plural(quality.vertices, "vertex", "vertices"), quality.inner_vertices,
-                     plural(quality.tetrahedra, "tetrahedron", "tetrahedra"));
-}
-
-std::string verdict(const Quality& quality) {
-  const std::size_t bad = bad_elements(quality);
-  std::string text = well_centered(bad, quality.triangles);
-  text += quality.non_regular_edges == 0
-              ? ", every edge is regular"
-              : ", " + plural(quality.non_regular_edges, "edge is not regular", "edges are not regular");
-  if (quality.inverted_triangles > 0) {
-    text += ", " + plural(quality.inverted_triangles, "triangle is inverted", "triangles are inverted");
+template <class AnyQuality>
+std::string verdict(const AnyQuality& quality) {
+  using Subject = SubjectOf<AnyQuality>;
+  const std::size_t irregular = n_irregular_links(quality);
+  std::string text = well_centered<Subject>(bad_elements(quality), n_elements(quality));
+  text += irregular == 0 ? fmt::format(", every {} is regular", Subject::link)
+                         : fmt::format(", {} not regular", plural(irregular, fmt::format("{} is", Subject::link),
+                                                                  fmt::format("{} are", Subject::links)));
+  if constexpr (requires { quality.inverted_triangles; }) {
+    if (quality.inverted_triangles > 0)
+      text += ", " + plural(quality.inverted_triangles, "triangle is inverted", "triangles are inverted");
   }
   return text;
 }
 
+template <class MeshOrQuality>
+std::string mesh_size(const MeshOrQuality& of) {
+  using Subject = SubjectOf<MeshOrQuality>;
+  std::size_t vertices = 0;
+  std::string inside;
+  if constexpr (std::is_same_v<MeshOrQuality, typename Subject::Mesh>)
+    vertices = of.n_vertices();
+  else
+    vertices = of.vertices;
+  if constexpr (requires { of.inner_vertices; }) inside = fmt::format(" ({} inside)", of.inner_vertices);
+  return fmt::format("{}{}, {}", plural(vertices, "vertex", "vertices"), inside,
+                     plural(n_elements(of), Subject::element, Subject::elements));
+}
+
 namespace {
 
-template <class Rows, class Report>
-std::string rows_text(const Rows& rows, const Report& quality) {
-  std::string text;
-  for (const auto& row : rows)
-    text += pad_right(row.label, kLabelColumns) + pad_left(row.text(quality), kNumberColumns) + "\n";
-  return text;
+std::string one_number(std::string_view label, const std::string& number) {
+  return pad_right(label, kLabelColumns) + pad_left(number, kNumberColumns) + "\n";
 }
-
-template <class Report>
-std::string measures_text(std::span<const MeasureRow<Report>> rows, const Report& quality) {
-  std::string text;
-  for (const MeasureRow<Report>& measure : rows)
-    text += pad_right(measure.label, kLabelColumns) + pad_left(measure_text(measure, quality), kNumberColumns) + "\n";
-  return text;
-}
-
 std::string two_numbers(std::string_view label, const std::string& from, const std::string& to) {
-  return pad_right(std::string(label), kLabelColumns) + pad_left(from, kNumberColumns) + pad_left(to, kNumberColumns) +
-         "\n";
-}
-
-template <class Rows, class Report>
-std::string two_columns(const Rows& rows, const Report& before, const Report& after) {
-  std::string text = two_numbers("", "before", "after");
-  for (const auto& row : rows) text += two_numbers(row.label, row.text(before), row.text(after));
-  return text;
-}
-
-template <class Report>
-std::string measures_text(std::span<const MeasureRow<Report>> rows, const Report& before, const Report& after) {
-  std::string text = two_numbers("", "before", "after");
-  for (const MeasureRow<Report>& measure : rows)
-    text += two_numbers(measure.label, measure_text(measure, before), measure_text(measure, after));
-  return text;
+  return pad_right(label, kLabelColumns) + pad_left(from, kNumberColumns) + pad_left(to, kNumberColumns) + "\n";
 }
 
 }  // namespace
 
-std::string brief_text(const Quality& quality) { return rows_text(kBriefRows, quality); }
-
-std::string brief_text(const tets::Quality& quality) { return rows_text(kBriefTetRows, quality); }
-
-std::string brief_text(const Quality& before, const Quality& after) { return two_columns(kBriefRows, before, after); }
-
-std::string brief_text(const tets::Quality& before, const tets::Quality& after) {
-  return two_columns(kBriefTetRows, before, after);
+template <class AnyQuality>
+std::string brief_text(const AnyQuality& quality) {
+  std::string text;
+  for (const auto& row : brief_rows(quality)) text += one_number(row.label, row.text(quality));
+  return text;
 }
 
-std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style) {
+template <class AnyQuality>
+std::string brief_text(const AnyQuality& before, const AnyQuality& after) {
+  std::string text = two_numbers("", "before", "after");
+  for (const auto& row : brief_rows(after)) text += two_numbers(row.label, row.text(before), row.text(after));
+  return text;
+}
+
+template <class Subject>
+std::string quality_text(const typename Subject::Quality& quality, const InputOf<Subject>& input,
+                         const TextStyle& style) {
   std::string text = fmt::format("{}: {}\n\n", input.path, verdict(quality));
-  text += measures_text(quality_measures(), quality);
-  text += "\n" + energy_table(quality, style);
-  text += "\n" + histograms({histogram_panel("angles (degrees)", quality.histograms.angles, style),
-                             histogram_panel("h/" + ell(style), quality.histograms.h_over_l, style),
-                             histogram_panel("d/" + ell(style), quality.histograms.d_over_l, style)},
-                            style);
-  return text + worst_text(quality, input, style);
+  for (const auto& measure : Subject::measures()) text += one_number(measure.label, measure_text(measure, quality));
+  std::vector panels = {histogram_panel(fmt::format("{}s (degrees)", Subject::angle), angles(quality), style),
+                        histogram_panel("h/" + ell(style), quality.histograms.h_over_l, style)};
+  if constexpr (requires { quality.histograms.d_over_l; })
+    panels.push_back(histogram_panel("d/" + ell(style), quality.histograms.d_over_l, style));
+  return text + energy_table(quality, style) + "\n" + histograms(panels, style) + worst_text(quality, input, style);
 }
 
-std::string quality_text(const tets::Quality& quality, const TetInput& input, const TextStyle& style) {
-  std::string text = fmt::format("{}: {}\n\n", input.path, verdict(quality));
-  text += measures_text(tets::quality_measures(), quality);
-  text += "\n" + histograms({histogram_panel("dihedrals (degrees)", quality.histograms.dihedrals, style),
-                             histogram_panel("h/" + ell(style), quality.histograms.h_over_l, style)},
-                            style);
-  return text + worst_text(quality, input, style);
+template <class AnyQuality>
+std::string comparison_text(const AnyQuality& before, const AnyQuality& after) {
+  std::string text = two_numbers("", "before", "after");
+  for (const auto& measure : SubjectOf<AnyQuality>::measures())
+    text += two_numbers(measure.label, measure_text(measure, before), measure_text(measure, after));
+  return text;
 }
 
-std::string comparison_text(const Quality& before, const Quality& after, int star, const TextStyle& style) {
-  std::string text = measures_text(quality_measures(), before, after);
+std::string energies_text(const Quality& before, const Quality& after, int star, const TextStyle& style) {
+  std::string text;
   const auto number = [&style](double value) {
     return std::isinf(value) ? energy_text(value, style) : fmt::format("{:.6g}", value);
   };
@@ -348,10 +308,6 @@ std::string comparison_text(const Quality& before, const Quality& after, int sta
     text += two_numbers(label, number(before.energy[i][column]), number(after.energy[i][column]));
   }
   return text;
-}
-
-std::string comparison_text(const tets::Quality& before, const tets::Quality& after) {
-  return measures_text(tets::quality_measures(), before, after);
 }
 
 std::string size_text(const SizeChange& size) {
@@ -365,5 +321,17 @@ std::string size_text(const SizeChange& size) {
          row("gradation, 95 %", [](const SizeReport& r) { return r.gradation.p95; }) +
          row("gradation, greatest", [](const SizeReport& r) { return r.gradation.max; });
 }
+
+#define TEMPER_MAKE(S)                                                                       \
+  template std::string quality_text(const S::Quality&, const InputOf<S>&, const TextStyle&); \
+  template std::string comparison_text(const S::Quality&, const S::Quality&);                \
+  template std::string brief_text(const S::Quality&);                                        \
+  template std::string brief_text(const S::Quality&, const S::Quality&);                     \
+  template std::string verdict(const S::Quality&);                                           \
+  template std::string well_centered<S>(std::size_t, std::size_t);                           \
+  template std::string mesh_size(const S::Quality&);                                         \
+  template std::string mesh_size(const S::Mesh&);
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
 
 }  // namespace temper::app

@@ -62,12 +62,11 @@ struct TetDecRecord {
 /// Counts, then one paragraph per reason: at most `limit` conflicts, and `limit` groups that only lack weights.
 [[nodiscard]] std::string explanation_text(const Explanation& explanation, const Input& input, std::size_t limit,
                                            const TextStyle& style);
-/// All reasons. Vertices and triangles are counted from 0, in the texts too.
-[[nodiscard]] std::string explanation_json(const Explanation& explanation, const Input& input);
-
-/// Explanations of tetrahedra.
+/// Counts, then one paragraph per reason of the explanation, which has at most `limit`.
 [[nodiscard]] std::string explanation_text(const tets::Explanation& explanation, const TetInput& input,
-                                           const TextStyle& style);
+                                           std::size_t limit, const TextStyle& style);
+/// All reasons. Vertices and elements are counted from 0, in the texts too.
+[[nodiscard]] std::string explanation_json(const Explanation& explanation, const Input& input);
 [[nodiscard]] std::string explanation_json(const tets::Explanation& explanation, const TetInput& input);
 
 // The reports of `temper weights`: text for people, and JSON.
@@ -144,7 +143,6 @@ void add_point_data(Command& command, std::vector<std::string>& words);
                                        const std::vector<io::DataArray>& point_data);
 
 /// Lines of `temper optimize`; none if nothing moved that carries data. `one`, `several`: the elements.
-[[nodiscard]] std::string data_text(const io::DataReport& report, std::string_view one = "triangle",
-                                    std::string_view several = "triangles");
+[[nodiscard]] std::string data_text(const io::DataReport& report, std::string_view one, std::string_view several);
 
 }  // namespace temper::app

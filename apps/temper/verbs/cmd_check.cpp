@@ -1,5 +1,5 @@
 // temper check IN...: the quality of meshes in a few lines, in full or as JSON, and requirements on it. The content of
-// a file decides if it is measured as triangles or as tetrahedra.
+// a file decides of which cells it is.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,18 +54,18 @@ struct CheckSettings {
 void add_options(Command& command, CheckSettings& s) {
   command.group("Report");
   add_texts(command, "IN", "", Values::words, s.inputs,
-            "One or more mesh files, of triangles or tetrahedra. The content of each file shows its format. '-' reads "
-            "standard input.")
+            "One or more mesh files, of " + any_elements() +
+                ". The content of each file shows its format. '-' reads standard input.")
       .require();
   add_projection(command, s.projection);
   add_heights(command, s.heights);
   command.add_flag("--details", s.details,
-                   "Print all measures, energies, histograms and the worst triangles or tetrahedra.");
+                   "Print all measures, energies, histograms and the worst " + any_elements() + ".");
   command.add_flag(
       "--json", s.json,
       "Print the report as JSON, with vertices and elements counted from 0. For several meshes, print a list.");
   add_write(command, s.write, kCheckOutputs);
-  add_count(command, "--worst", s.worst, 0, "Number of worst triangles or tetrahedra to list.");
+  add_count(command, "--worst", s.worst, 0, "Number of worst " + any_elements() + " to list.");
   add_length_parameter(command, "--gamma", s.gamma, kPositive,
                        "Gamma of E_BP: a multiple of each edge's length, or a length. (default: 1:absolute)")
       .cells = CellKinds::triangles;
@@ -77,7 +77,7 @@ void add_options(Command& command, CheckSettings& s) {
   add_tensor(command, s.metric, "Take all measures");
   add_threads(command, s.threads);
   command.group("Requirements");
-  add_requirements(command, s.require, true);
+  add_requirements(command, s.require);
   command.group("Help");
   command.add_help({"IN ... [options]",
                     "  temper check in.vtu\n"

@@ -35,9 +35,9 @@ void add_options(Command& command, ExplainSettings& s) {
   add_count(command, "--limit", s.limit, 0,
             "Largest number of conflicts to print, and of places for which weights exist. Cures are searched for these "
             "only. For tetrahedra: largest number of bad ones to print.");
-  add_count(command, "--whole", s.whole, 0,
-            "Largest number of triangles or tetrahedra, or of bad ones, for which weights of the whole mesh are "
-            "searched.");
+  add_count(
+      command, "--whole", s.whole, 0,
+      "Largest number of " + any_elements() + ", or of bad ones, for which weights of the whole mesh are searched.");
   command.group("Help");
   command.add_help({"IN [options]",
                     "  temper example sparse-horseshoe -o shoe.vtu && temper explain shoe.vtu\n"
@@ -65,14 +65,13 @@ class Counter {
   bool enabled_ = error_is_terminal();
 };
 
-void explain_mesh(const ExplainSettings& s, const TetInput& input) {
+tets::Explanation explained(const ExplainSettings& s, const TetInput& input) {
   tets::ExplainOptions options = {.whole = s.whole};
   if (!s.json) options.reasons = s.limit;
-  const tets::Explanation explanation = or_fail(explain(input.mesh(), *clp_solver(), options));
-  s.json ? print_data(explanation_json(explanation, input)) : print(explanation_text(explanation, input, text_style()));
+  return or_fail(explain(input.mesh(), *clp_solver(), options));
 }
 
-void explain_mesh(const ExplainSettings& s, const Input& input) {
+Explanation explained(const ExplainSettings& s, const Input& input) {
   const auto solver = clp_solver();
   Counter counter;
   ExplainOptions options;
@@ -85,8 +84,7 @@ void explain_mesh(const ExplainSettings& s, const Input& input) {
     for (Cure& cure : reason.cures) cure.at = place_in_file(input.file, cure.at);
   }
   counter.clear();
-  s.json ? print_data(explanation_json(explanation, input))
-         : print(explanation_text(explanation, input, s.limit, text_style()));
+  return explanation;
 }
 
 }  // namespace
@@ -94,13 +92,13 @@ void explain_mesh(const ExplainSettings& s, const Input& input) {
 Exit run_explain(const Arguments& arguments) {
   Command command(
       "explain",
-      "Explains every triangle or tetrahedron that is not well-centered. A triangle is bad for one of two reasons. "
-      "Either a "
-      "proof shows a small set of triangles for which no weights exist, or weights exist but have not been found. "
-      "temper "
-      "also tries cures on the triangles around. For a tetrahedron it prints the orthocenter, the weights, the heights "
-      "over faces, and what may help. The exit code does not depend on the result: to test a mesh, use temper check "
-      "--require.");
+      "Explains every " + any_element() +
+          " that is not well-centered. A triangle is bad for one of two reasons. Either a proof shows a small set of "
+          "triangles for which no weights exist, or weights exist but have not been found. temper also tries cures on "
+          "the triangles around. For a tetrahedron it prints the orthocenter, the weights, the heights "
+          "over faces, and what may help. The exit code does not depend on the result: to test a mesh, use temper "
+          "check "
+          "--require.");
   ExplainSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
@@ -109,7 +107,9 @@ Exit run_explain(const Arguments& arguments) {
   std::visit(
       [&](const auto& input) {
         print_warnings(input.warnings());
-        explain_mesh(s, input);
+        const auto explanation = explained(s, input);
+        s.json ? print_data(explanation_json(explanation, input))
+               : print(explanation_text(explanation, input, s.limit, text_style()));
       },
       any);
   return Exit::done;

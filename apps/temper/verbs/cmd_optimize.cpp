@@ -29,18 +29,17 @@ template <class Subject>
 void write_reports(const Command& command, const OptimizeSettings& s, const InputOf<Subject>& input,
                    const RunResults<Subject>& results, Outputs& outputs) {
   if (s.files.report.empty() && s.files.page.empty()) return;
-  const RunRecord<typename Subject::Quality, typename Subject::OptimizeReport> record = {
-      command_line(command, {s.input}),
-      options_json(command, s.assignments),
-      options_json(s.options, Subject::cells),
-      results.before,
-      input.points,
-      results.after,
-      results.report,
-      results.data,
-      results.outcomes,
-      results.warnings,
-      results.errors_json};
+  const RunRecord<Subject> record = {command_line(command, {s.input}),
+                                     options_json(command, s.assignments),
+                                     options_json(s.options, Subject::cells),
+                                     results.before,
+                                     input.points,
+                                     results.after,
+                                     results.report,
+                                     results.data,
+                                     results.outcomes,
+                                     results.warnings,
+                                     results.errors_json};
   if (!s.files.report.empty()) outputs.write_text(s.files.report, optimize_json(record));
   if (!s.files.page.empty())
     outputs.write_text(s.files.page, optimize_html(RunPage{record, input, *results.original, *results.improved}));

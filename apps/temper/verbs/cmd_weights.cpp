@@ -66,26 +66,33 @@ struct WeightsSettings {
   bool json = false, zero = false;
 };
 
-/// The rows of triangles, then those that tetrahedra alone have.
+std::span<const ConstraintsInfo> constraints_of(CellKinds kind) {
+  return with_subject(kind, [](auto subject) { return decltype(subject)::constraints(); });
+}
+
+/// The rows of the first kind of cells, then those that other kinds alone have.
 const std::vector<ConstraintsInfo>& all_constraints() {
   static const std::vector<ConstraintsInfo> all = [] {
-    std::vector<ConstraintsInfo> rows(constraints_table().begin(), constraints_table().end());
-    for (const ConstraintsInfo& row : tets::constraints_table()) {
-      if (std::ranges::find(rows, row.name, &ConstraintsInfo::name) == rows.end()) rows.push_back(row);
+    std::vector<ConstraintsInfo> rows;
+    for (const CellKinds kind : kEachKind) {
+      for (const ConstraintsInfo& row : constraints_of(kind)) {
+        if (std::ranges::find(rows, row.name, &ConstraintsInfo::name) == rows.end()) rows.push_back(row);
+      }
     }
     return rows;
   }();
   return all;
 }
 
-/// The cells that have these constraints.
+/// The cells that have these constraints: one kind, or all.
 CellKinds cells_of(std::string_view constraints) {
-  const auto has = [&](std::span<const ConstraintsInfo> rows) {
-    return std::ranges::any_of(rows, [&](const auto& row) { return option_name(row.constraints) == constraints; });
-  };
-  return !has(constraints_table())         ? CellKinds::tetrahedra
-         : !has(tets::constraints_table()) ? CellKinds::triangles
-                                           : CellKinds::both;
+  std::vector<CellKinds> kinds;
+  for (const CellKinds kind : kEachKind) {
+    for (const ConstraintsInfo& row : constraints_of(kind)) {
+      if (option_name(row.constraints) == constraints) kinds.push_back(kind);
+    }
+  }
+  return kinds.size() == 1 ? kinds.front() : CellKinds::both;
 }
 
 const ConstraintsInfo& row_of(std::span<const ConstraintsInfo> rows, Constraints constraints) {
@@ -115,8 +122,7 @@ void add_conditions(Command& command, WeightsSettings& s) {
 
 void add_files(Command& command, WeightsSettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "Mesh file, of triangles or tetrahedra. Its content shows the format.")
-      .require();
+  add_argument(command, "IN", s.input, "Mesh file, of " + any_elements() + ". Its content shows the format.").require();
   add_projection(command, s.projection);
   add_heights(command, s.heights);
   add_mesh_output(command, s.output, "OUT",
@@ -149,8 +155,9 @@ void add_goal(Command& command, WeightsSettings& s) {
       command, "--from", kFrom, s.from,
       "Weights from which the change is measured. 'zero' means that all are 0, and 'input' means the weights of IN.");
   add_count(command, "--whole", s.whole, 0,
-            "Largest number of triangles or tetrahedra in a component that is solved as a whole. In larger components, "
-            "only the elements around bad ones are solved, as far out as needed.");
+            "Largest number of " + any_elements() +
+                " in a component that is solved as a whole. In larger components, only the elements around bad ones "
+                "are solved, as far out as needed.");
 }
 
 void add_connectivity(Command& command, WeightsSettings& s) {
@@ -282,9 +289,6 @@ io::AnyCertificate read_certificate(const std::string& path, const io::VertexOfP
 
 // These functions differ between the kinds of cells.
 
-std::span<const ConstraintsInfo> constraints_of(const Mesh& /*mesh*/) { return constraints_table(); }
-std::span<const ConstraintsInfo> constraints_of(const tets::TetMesh& /*mesh*/) { return tets::constraints_table(); }
-
 Space space_of(const Mesh& mesh) { return mesh.space(); }
 Space space_of(const tets::TetMesh& /*mesh*/) { return {}; }
 
@@ -311,7 +315,7 @@ Exit check(const WeightsSettings& s, const InputOf<Subject>& input) {
   const auto* const certificate = std::get_if<Certificate>(&any);
   const CertificateCheck found = certificate ? check_certificate(input.mesh(), *certificate)
                                              : check_of(s, input.mesh(), std::get<ConnectivityProof>(any));
-  return report_check(s, any, found, constraints_of(input.mesh()));
+  return report_check(s, any, found, Subject::constraints());
 }
 
 /// On the sphere setting a weight rounds the place: only changed weights are set.
@@ -391,7 +395,7 @@ Exit find(const WeightsSettings& s, InputOf<Subject>& input, const typename Subj
   const WeightReport report = or_fail(find_weights(mesh, *clp_solver(), s.options, interior_point_solver().get()));
   WeightsRecord record = {kModes[static_cast<std::size_t>(s.options.goal)].name,
                           s.options,
-                          row_of(constraints_of(mesh), s.options.constraints),
+                          row_of(Subject::constraints(), s.options.constraints),
                           report,
                           input.path,
                           mesh_size(mesh),
@@ -422,9 +426,10 @@ Exit run(const WeightsSettings& s, TetInput& input, Outputs& outputs) {
 Exit run_weights(const Arguments& arguments) {
   Command command(
       "weights",
-      "Finds weights that make every triangle or tetrahedron well-centered, or proves that there are none. "
-      "Positions and connectivity stay. With --constraints, weights bring orthocenters inside or make edges regular "
-      "instead. With --connectivity search, it looks for a better connectivity first.");
+      "Finds weights that make every " + any_element() +
+          " well-centered, or proves that there are none. Positions and connectivity stay. With --constraints, weights "
+          "bring orthocenters inside or make edges regular instead. With --connectivity search, it looks for a better "
+          "connectivity first.");
   WeightsSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

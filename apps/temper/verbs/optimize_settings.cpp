@@ -88,8 +88,7 @@ void add_common(Command& command, OptimizeSettings& s) {
       CellKinds::triangles;
   add_flag_of(command, "min_edge", s.assignments).sentence = "Least length of interior edges over the local size.";
   add_flag_of(command, "min_dual", s.assignments).sentence = "Least length of their duals over the local size.";
-  add_requirements(command, s.require, true).sentence =
-      "Requirements, such as outside=0. If one is not met, exit with 3.";
+  add_requirements(command, s.require).sentence = "Requirements, such as outside=0. If one is not met, exit with 3.";
   add_flag_of(command, "time_limit", s.assignments).value_name = "SECONDS";
   add_write(command, s.write, kRunOutputs);
 }

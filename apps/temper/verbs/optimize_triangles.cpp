@@ -179,7 +179,8 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
 
 std::string measures_text(const OptimizeSettings& s, const RunResults<Triangles>& results) {
   const int star = objective_of(s.options) != Objective::energy ? 1 : static_cast<int>(s.options.star);  // that counts
-  return comparison_text(results.before, results.after, star, text_style()) + size_text(results.report.size);
+  return comparison_text(results.before, results.after) +
+         energies_text(results.before, results.after, star, text_style()) + size_text(results.report.size);
 }
 
 }  // namespace temper::app
