@@ -43,6 +43,7 @@ struct Triangles {
   static constexpr auto cells_of_file = &io::MeshFile::triangles;
   static constexpr auto measures = &temper::quality_measures;
   static constexpr auto constraints = &temper::constraints_table;
+  static constexpr std::string_view length_of_constraints = "edge length l";
   static constexpr bool runs_on_all_ranks = true;
   static const ReportTable& table_of_data(const io::DataReport* report) { return table_of(report); }
 };
@@ -62,6 +63,7 @@ struct Tetrahedra {
   static constexpr auto cells_of_file = &io::MeshFile::tetrahedra;
   static constexpr auto measures = &tets::quality_measures;
   static constexpr auto constraints = &tets::constraints_table;
+  static constexpr std::string_view length_of_constraints = "the side l of an equilateral triangle of a face's area";
   static constexpr bool runs_on_all_ranks = false;
   static const ReportTable& table_of_data(const io::DataReport* report) { return table_for_tetrahedra(report); }
 };
@@ -74,7 +76,7 @@ inline constexpr CellKinds kEachKind[] = {Triangles::cells, Tetrahedra::cells};
 
 /// Calls f with the Subject of these cells.
 template <class F>
-auto with_subject(CellKinds cells, const F& f) {
+decltype(auto) with_subject(CellKinds cells, const F& f) {
   return cells == Tetrahedra::cells ? f(Tetrahedra()) : f(Triangles());
 }
 /// The Subject of a mesh or of its quality.

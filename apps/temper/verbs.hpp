@@ -27,7 +27,7 @@ Exit run_errors(const Arguments& arguments);  // only with temper::errors
 
 struct Verb {
   std::string_view name;
-  std::string_view summary;
+  std::string summary;
   Exit (*run)(const Arguments& arguments);
 };
 [[nodiscard]] std::span<const Verb> verbs();

@@ -108,8 +108,9 @@ io::MeshFile read_file(const std::string& path, const ReadingOptions& options) {
 
 AnyInput read_any(const std::string& path, const ReadingOptions& options) {
   io::MeshFile file = read_file(path, options);
-  if (cells_of(file) == Tetrahedra::cells) return made_of<Tetrahedra>(std::move(file), path, options);
-  return made_of<Triangles>(std::move(file), path, options);
+  return with_subject(cells_of(file), [&](auto subject) -> AnyInput {
+    return made_of<decltype(subject)>(std::move(file), path, options);
+  });
 }
 
 Input make_input(io::MeshFile file, const std::string& path, const ReadingOptions& options) {

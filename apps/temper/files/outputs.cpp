@@ -121,8 +121,9 @@ void add_mesh_output(Command& command, MeshOutput& target, const std::string& va
       {.names = "--no-triangle-quality",
        .value_name = "",
        .sentence =
-           "Leave out the quality of triangles or tetrahedra: the cell data well_centered, min_h_over_l, min_d_over_l, "
-           "min_angle_deg and min_dihedral_deg of VTU and VTKHDF.",
+           "Leave out the quality of " + any_elements() +
+           ": the cell data well_centered, min_h_over_l, min_d_over_l, min_angle_deg and min_dihedral_deg of VTU and "
+           "VTKHDF.",
        .take = [&target](const std::string&) { target.options.triangle_quality = false; }});
 }
 

@@ -50,7 +50,7 @@ class Outputs {
   /// not be another output, nor one of the files of `others`, which are inputs. If the mesh goes to standard output,
   /// later messages go to standard error.
   void expect_mesh(const MeshOutput& output, const std::vector<std::string>& others = {});
-  /// Failure if the format has no place for the space of the mesh, or for tetrahedra: before the work, not after it.
+  /// Failure if the format has no place for the space or the cells of the mesh: before the work, not after it.
   /// Does nothing without an output.
   void expect_place(const MeshOutput& output, const io::MeshFile& file) const;
   /// A text file that must not be another output, or one of the files that these inputs are read from. An empty path

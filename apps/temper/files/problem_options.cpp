@@ -25,11 +25,7 @@ std::vector<std::string_view> names_of_numbers(const std::vector<io::DataArray>&
   return names;
 }
 
-/// A coefficient has a value for each of these elements.
-auto elements_of(const Mesh& mesh) { return mesh.triangles(); }
-auto elements_of(const tets::TetMesh& mesh) { return mesh.tetrahedra(); }
-
-/// The data of triangles or tetrahedra with this name.
+/// The data of elements with this name.
 template <class Subject>
 std::vector<double> from_data(const Command& command, const std::string& name, const InputOf<Subject>& input) {
   const std::vector<io::DataArray>& data = (input.file.*Subject::cells_of_file).data;
@@ -109,10 +105,9 @@ std::vector<double> from_regions(const Command& command, const std::string& text
 }  // namespace
 
 void add_coefficient(Command& command, std::string& target) {
-  add_text(
-      command, "--coefficient", "NAME", target,
-      "Coefficient K > 0 of -div(K grad u) on each triangle or tetrahedron: the name of its data. Or write a value "
-      "for each region, by number or name: 1=1e-4,clay=1e-9.");
+  add_text(command, "--coefficient", "NAME", target,
+           "Coefficient K > 0 of -div(K grad u) on each " + any_element() +
+               ": the name of its data. Or write a value for each region, by number or name: 1=1e-4,clay=1e-9.");
 }
 
 template <class Subject>
@@ -120,8 +115,10 @@ std::vector<double> read_coefficient(const Command& command, const std::string& 
   if (text.empty()) return {};
   return text.find('=') == std::string::npos ? from_data(command, text, input) : from_regions(command, text, input);
 }
-template std::vector<double> read_coefficient(const Command&, const std::string&, const Input&);
-template std::vector<double> read_coefficient(const Command&, const std::string&, const TetInput&);
+#define TEMPER_MAKE(S) \
+  template std::vector<double> read_coefficient(const Command&, const std::string&, const InputOf<S>&);
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
 
 namespace {
 

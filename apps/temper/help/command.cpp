@@ -288,15 +288,15 @@ Option& Command::option(std::string_view name) { return options_[index_of(name)]
 bool Command::was_given(std::string_view name) const { return !options_[index_of(name)].given.empty(); }
 
 void Command::expect_for(CellKinds cells, const std::string& path) const {
-  const CellKinds others = cells == CellKinds::triangles ? CellKinds::tetrahedra : CellKinds::triangles;
   for (const Option& option : options_) {
     for (const std::string& text : option.given) {
       const bool by_value = fits(option.cells, cells) && option.cells_of;
-      if (by_value ? fits(option.cells_of(text), cells) : fits(option.cells, cells)) continue;
+      const CellKinds kinds = by_value ? option.cells_of(text) : option.cells;
+      if (fits(kinds, cells)) continue;
       if (option.is_flag() && text == "false") continue;
       refuse_usage(name_,
                    fmt::format("{} has {}, and {}{} is for {} alone. Next: leave it out", path, temper::name(cells),
-                               long_name(option.names), by_value ? " " + text : "", temper::name(others)));
+                               long_name(option.names), by_value ? " " + text : "", temper::name(kinds)));
     }
   }
 }

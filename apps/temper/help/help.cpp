@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "console.hpp"
+#include "subject.hpp"
 #include "verbs.hpp"
 
 namespace temper::app {
@@ -91,7 +92,7 @@ std::string examples(const Command& command, bool all) {
 
 HelpPart verb_part() {
   HelpPart part = {"Verbs", {}, 9};
-  for (const Verb& verb : verbs()) part.rows.push_back({std::string(verb.name), std::string(verb.summary)});
+  for (const Verb& verb : verbs()) part.rows.push_back({std::string(verb.name), verb.summary});
   return part;
 }
 
@@ -129,7 +130,7 @@ HelpPage help_of(const Command& command, HelpForm form) {
 }
 
 HelpPage help_of_program() {
-  const std::string summary = "primal-dual meshes of triangles and tetrahedra that solvers can trust";
+  const std::string summary = "primal-dual meshes of " + any_elements("and") + " that solvers can trust";
   HelpPage page = {"", summary, "temper: " + summary, "VERB ...", {verb_part()}};
   page.parts.push_back(
       {"Options",

@@ -96,8 +96,7 @@ std::string table(const std::string& title, std::string_view norm, const std::ve
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 
 /// `links`: what leads from one cell to the next, "edges" or "faces".
-std::string matrices_text(const ErrorSystem& p, const ErrorSystem& f, const std::string& links,
-                          const TextStyle& style) {
+std::string matrices_text(const ErrorSystem& p, const ErrorSystem& f, std::string_view links, const TextStyle& style) {
   const auto value = [&](double x) { return number_text(x, Shown::ratios, style); };
   std::string text = "\n" + row_text("matrix", {"Poisson", "flux"});
   text += row_text("unknowns", {std::to_string(p.unknowns), std::to_string(f.unknowns)});
@@ -105,7 +104,7 @@ std::string matrices_text(const ErrorSystem& p, const ErrorSystem& f, const std:
   text += row_text("positive definite", {yes_no(p.definite), yes_no(f.definite)});
   text += row_text("singular", {yes_no(p.singular), yes_no(f.singular)});
   text += row_text("negative coefficients", {std::to_string(p.negative), std::to_string(f.negative)});
-  text += row_text(links + " between merged cells", {"-", std::to_string(f.merged)});
+  text += row_text(fmt::format("{} between merged cells", links), {"-", std::to_string(f.merged)});
   text += row_text("largest coefficient over median", {value(p.largest_over_median), value(f.largest_over_median)});
   if (p.condition && f.condition) text += row_text("condition, at least", {value(*p.condition), value(*f.condition)});
   return text;
@@ -191,41 +190,26 @@ std::string problem_json(const ProblemRecord& record) {
   return dump(json);
 }
 
-namespace {
-
-template <class Record>
-std::string errors_text(const Record& record, const std::string& links, const TextStyle& style) {
-  std::string text = table("relative error, L2", ".l2", record.report.fields, Shown::errors, style);
-  text += table("relative error, maximum", ".max", record.report.fields, Shown::errors, style);
-  text += matrices_text(record.report.poisson, record.report.flux, links, style);
+template <class Subject>
+std::string error_text(const ErrorRecord<Subject>& record, const TextStyle& style) {
+  const auto& report = record.report;
+  const auto fields = [&](const char* what, const std::vector<FieldErrors>& of, Shown shown) {
+    return table(fmt::format("{}, L2", what), ".l2", of, shown, style) +
+           table(fmt::format("{}, maximum", what), ".max", of, shown, style);
+  };
+  std::string text =
+      fmt::format("{}: {}, {} not well-centered; {} not regular\n", record.path,
+                  plural(n_elements(report), Subject::element, Subject::elements), report.not_well_centered,
+                  plural(n_irregular_links(report), fmt::format("interior {}", Subject::link),
+                         fmt::format("interior {}", Subject::links)));
+  text += fields("relative error", report.fields, Shown::errors);
+  text += matrices_text(report.poisson, report.flux, Subject::links, style);
   if (record.against) {
     text += fmt::format("\nover the errors of {}:\n", record.against->path);
-    text += table("ratio, L2", ".l2", record.against->ratios, Shown::ratios, style);
-    text += table("ratio, maximum", ".max", record.against->ratios, Shown::ratios, style);
+    text += fields("ratio", record.against->ratios, Shown::ratios);
   }
-  return text;
-}
-
-}  // namespace
-
-std::string error_text(const TetErrorRecord& record, const TextStyle& style) {
-  const tets::ErrorReport& report = record.report;
-  return fmt::format("{}: {}, {} not well-centered; {} not regular\n", record.path,
-                     plural(report.tetrahedra, "tetrahedron", "tetrahedra"), report.not_well_centered,
-                     plural(report.non_regular_faces, "interior face", "interior faces")) +
-         errors_text(record, "faces", style);
-}
-
-std::string error_text(const ErrorRecord& record, const TextStyle& style) {
-  const ErrorReport& report = record.report;
-  std::string text = fmt::format("{}: {}, {} not well-centered; {} not regular\n", record.path,
-                                 plural(report.triangles, "triangle", "triangles"), report.not_well_centered,
-                                 plural(report.non_regular_edges, "interior edge", "interior edges"));
-  text += errors_text(record, "edges", style);
-  if (!report.levels.empty()) {
-    text += levels_text(report);
-    text += table("order, L2", ".l2", report.orders, Shown::orders, style);
-    text += table("order, maximum", ".max", report.orders, Shown::orders, style);
+  if constexpr (requires { report.levels; }) {
+    if (!report.levels.empty()) text += levels_text(report) + fields("order", report.orders, Shown::orders);
   }
   return text;
 }
@@ -243,10 +227,11 @@ std::string error_comparison_text(const ErrorReport& before, const ErrorReport& 
   return text;
 }
 
-Json error_report_json(const ErrorReport& report) {
-  Json json = json_of(report);
-  json["errors"] = fields_json(report.fields, Shown::errors);
-  if (report.levels.empty()) return json;
+namespace {
+
+/// The refined family.
+void add_levels(Json& json, const ErrorReport& report) {
+  if (report.levels.empty()) return;
   Json levels = Json::array();
   for (const ErrorLevel& level : report.levels) {
     Json item = {{"vertices", level.vertices},
@@ -258,19 +243,21 @@ Json error_report_json(const ErrorReport& report) {
   }
   json["levels"] = std::move(levels);
   json["orders"] = fields_json(report.orders, Shown::orders);
-  return json;
 }
 
-Json error_report_json(const tets::ErrorReport& report) {
+/// One report, as a part of other reports.
+template <class Report>
+Json error_report_json(const Report& report) {
   Json json = json_of(report);
   json["errors"] = fields_json(report.fields, Shown::errors);
+  if constexpr (requires { report.levels; }) add_levels(json, report);
   return json;
 }
 
-namespace {
+}  // namespace
 
-template <class Record>
-std::string record_json(const Record& record) {
+template <class Subject>
+std::string error_json(const ErrorRecord<Subject>& record) {
   Json json = {{"schema", kSchema}};
   json.update(error_report_json(record.report));
   if (record.against) {
@@ -281,11 +268,11 @@ std::string record_json(const Record& record) {
   return dump(json);
 }
 
-}  // namespace
-
-std::string error_json(const ErrorRecord& record) { return record_json(record); }
-
-std::string error_json(const TetErrorRecord& record) { return record_json(record); }
+#define TEMPER_MAKE(S)                                                      \
+  template std::string error_text(const ErrorRecord<S>&, const TextStyle&); \
+  template std::string error_json(const ErrorRecord<S>&);
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
 
 std::string edge_errors_csv(const ErrorReport& report, const Input& input) {
   const DecComplex complex = dec_operators(input.mesh());
@@ -312,7 +299,7 @@ void SolverErrors::measure_result(const Mesh& result) { after_ = measured(result
 std::string SolverErrors::text(const TextStyle& style) const { return error_comparison_text(before_, after_, style); }
 
 std::string SolverErrors::json() const {
-  const nlohmann::ordered_json json = {{"before", error_report_json(before_)}, {"after", error_report_json(after_)}};
+  const Json json = {{"before", error_report_json(before_)}, {"after", error_report_json(after_)}};
   return json.dump();
 }
 

@@ -1,7 +1,6 @@
 // The errors of solvers, as text and as JSON.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,20 +11,22 @@
 
 namespace temper::app {
 
-/// A mesh of triangles or tetrahedra, and another one that it is measured against, in the same frame.
-template <class Report>
-struct ErrorRecordOf {
+/// A mesh, and another one of the same kind that it is measured against, in the same frame.
+template <class Subject>
+struct ErrorRecord {
   struct Reference {
     std::string path;
-    Report report;
+    typename Subject::ErrorReport report;
     std::vector<FieldErrors> ratios;
   };
   std::string path;
-  Report report;
+  typename Subject::ErrorReport report;
   std::optional<Reference> against;
 };
-using ErrorRecord = ErrorRecordOf<ErrorReport>;
-using TetErrorRecord = ErrorRecordOf<tets::ErrorReport>;
+template <class Subject>
+[[nodiscard]] std::string error_text(const ErrorRecord<Subject>& record, const TextStyle& style);
+template <class Subject>
+[[nodiscard]] std::string error_json(const ErrorRecord<Subject>& record);
 
 /// The user's own problem on a mesh, and on another one.
 struct ProblemRecord {
@@ -37,18 +38,9 @@ struct ProblemRecord {
 [[nodiscard]] std::string problem_text(const ProblemRecord& record);
 [[nodiscard]] std::string problem_json(const ProblemRecord& record);
 
-[[nodiscard]] std::string error_text(const ErrorRecord& record, const TextStyle& style);
-[[nodiscard]] std::string error_json(const ErrorRecord& record);
-[[nodiscard]] std::string error_text(const TetErrorRecord& record, const TextStyle& style);
-[[nodiscard]] std::string error_json(const TetErrorRecord& record);
-
 /// Geometric means of the errors of two meshes, one line per measure: `temper optimize --measure-errors`.
 [[nodiscard]] std::string error_comparison_text(const ErrorReport& before, const ErrorReport& after,
                                                 const TextStyle& style);
-/// One report, as a part of other reports.
-[[nodiscard]] nlohmann::ordered_json error_report_json(const ErrorReport& report);
-[[nodiscard]] nlohmann::ordered_json error_report_json(const tets::ErrorReport& report);
-
 /// One line per edge: from,to,star1,error. Points count from 0, in the order of the file's arrays.
 [[nodiscard]] std::string edge_errors_csv(const ErrorReport& report, const Input& input);
 

@@ -39,23 +39,21 @@ struct DecRecord {
   const Columns* columns;  ///< null: without layers
   std::vector<std::string> files;
 };
-[[nodiscard]] const ReportTable& table_of(const DecRecord*);
-
-[[nodiscard]] std::string dec_text(const DecRecord& record);
-[[nodiscard]] std::string dec_json(const DecRecord& record);
-/// The record of a mesh of tetrahedra.
 struct TetDecRecord {
   std::string path;
   const tets::DecSummary& summary;
   std::vector<std::string> files;
 };
+[[nodiscard]] const ReportTable& table_of(const DecRecord*);
 [[nodiscard]] const ReportTable& table_of(const TetDecRecord*);
-[[nodiscard]] std::string dec_text(const TetDecRecord& record);
-[[nodiscard]] std::string dec_json(const TetDecRecord& record);
-[[nodiscard]] std::vector<std::string> dec_warnings(const TetDecRecord& record);
 
+[[nodiscard]] std::string dec_text(const DecRecord& record);
+[[nodiscard]] std::string dec_text(const TetDecRecord& record);
+[[nodiscard]] std::string dec_json(const DecRecord& record);
+[[nodiscard]] std::string dec_json(const TetDecRecord& record);
 /// The warnings that the author of a solver should read before using the operators: none for a well-centered mesh.
 [[nodiscard]] std::vector<std::string> dec_warnings(const DecRecord& record);
+[[nodiscard]] std::vector<std::string> dec_warnings(const TetDecRecord& record);
 
 // The reports of `temper explain`: text for people, and JSON.
 
@@ -81,7 +79,7 @@ struct WeightsRecord {
   Space space;                                                       ///< of the mesh
   const std::vector<std::size_t>& points;                            ///< of Input or TetInput
   std::function<std::string(const WeightConstraint&)> text;          ///< constraint_text
-  std::function<TriangleId(const WeightConstraint&)> triangle = {};  ///< of a height; none for tetrahedra
+  std::function<TriangleId(const WeightConstraint&)> triangle = {};  ///< of a height, in meshes of triangles
   const ConnectivityReport* search = nullptr;                        ///< with --connectivity search
   std::string_view output = {};                                      ///< empty: not written
   std::string_view certificate = {};                                 ///< the same

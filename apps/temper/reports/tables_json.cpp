@@ -79,7 +79,9 @@ std::string report_tables_json() {
 #ifdef TEMPER_WITH_ERRORS
   add_all<ErrorReport, tets::ErrorReport, DiffusionErrors>(tables);
 #endif
-  tables.add(table_for_tetrahedra(static_cast<const io::DataReport*>(nullptr)));
+  for (const CellKinds kind : kEachKind)
+    tables.add(with_subject(
+        kind, [](auto subject) -> const ReportTable& { return decltype(subject)::table_of_data(nullptr); }));
   return dump(tables.list());
 }
 

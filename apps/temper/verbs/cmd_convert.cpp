@@ -29,7 +29,7 @@ struct ConvertSettings {
 
 void add_options(Command& command, ConvertSettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "File to read, of triangles or tetrahedra. Its content shows the format.")
+  add_argument(command, "IN", s.input, "File to read, of " + any_elements() + ". Its content shows the format.")
       .require();
   add_projection(command, s.projection);
   add_heights(command, s.heights);

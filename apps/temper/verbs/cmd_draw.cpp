@@ -35,7 +35,7 @@ struct DrawSettings {
 
 void add_options(Command& command, DrawSettings& s) {
   command.group("Files");
-  add_argument(command, "IN", s.input, "Mesh to draw, of triangles or tetrahedra.").require();
+  add_argument(command, "IN", s.input, "Mesh to draw, of " + any_elements() + ".").require();
   add_projection(command, s.projection);
   add_heights(command, s.heights);
   add_text(command, "-o,--output", "FILE", s.output, "Picture to write: .svg, .png or .pdf.").require();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -36,21 +37,19 @@ constexpr double kSameBox = 1e-6;
 
 std::string field_names() {
   std::string text;
-  const auto add = [&text](std::string_view begin, SpaceKind space) {
+  const auto add = [&text](std::string_view begin, std::span<const ErrorField> fields) {
     text += begin;
     std::string_view separator = " ";
-    for (const ErrorField& field : error_fields(space)) {
+    for (const ErrorField& field : fields) {
       text += fmt::format("{}{}", separator, field.name);
       separator = ", ";
     }
     text += ".";
   };
-  add("Fields of the plane:", SpaceKind::plane);
-  add(" Fields of the sphere:", SpaceKind::sphere);
-  add(" Fields of a periodic plane:", SpaceKind::periodic_plane);
-  text += " Fields of tetrahedra:";
-  for (const ErrorField& field : tets::error_fields()) text += fmt::format(" {},", field.name);
-  text.back() = '.';
+  add("Fields of the plane:", error_fields(SpaceKind::plane));
+  add(" Fields of the sphere:", error_fields(SpaceKind::sphere));
+  add(" Fields of a periodic plane:", error_fields(SpaceKind::periodic_plane));
+  add(" Fields of tetrahedra:", tets::error_fields());
   return text;
 }
 
@@ -145,10 +144,10 @@ tets::MeasureErrorsOptions without_orders(tets::MeasureErrorsOptions options) { 
 void take_metric(const ErrorSettings& s, Input& input) { take_to_metric(input, s.metric); }
 void take_metric(const ErrorSettings& /*s*/, const TetInput& /*input*/) {}
 
-void write_edges(const ErrorSettings& s, const ErrorRecord& record, const Input& input, Outputs& outputs) {
+void write_edges(const ErrorSettings& s, const ErrorRecord<Triangles>& record, const Input& input, Outputs& outputs) {
   if (!s.edges.empty()) outputs.write_text(s.edges, edge_errors_csv(record.report, input));
 }
-void write_edges(const ErrorSettings&, const TetErrorRecord&, const TetInput&, Outputs&) {}
+void write_edges(const ErrorSettings&, const ErrorRecord<Tetrahedra>&, const TetInput&, Outputs&) {}
 
 template <class Subject>
 InputOf<Subject> read_reference(const ErrorSettings& s, const InputOf<Subject>& input, Executor* executor) {
@@ -164,7 +163,7 @@ void report_fields(const ErrorSettings& s, InputOf<Subject>& input, Outputs& out
   take_metric(s, input);
   const auto options = error_options(s, input, executor);
   const auto measured = [](const auto& mesh, const auto& how) { return or_fail(measure_errors(mesh, how)); };
-  ErrorRecordOf<decltype(measured(input.mesh(), options))> record = {s.input, measured(input.mesh(), options), {}};
+  ErrorRecord<Subject> record = {s.input, measured(input.mesh(), options), {}};
   if (!s.against.empty()) {
     InputOf<Subject> reference = read_reference(s, input, executor);
     take_metric(s, reference);

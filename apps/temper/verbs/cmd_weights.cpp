@@ -105,12 +105,13 @@ void add_conditions(Command& command, WeightsSettings& s) {
     for (const ConstraintsInfo& row : all_constraints()) of_rows.push_back(option_name(row.constraints));
     return of_rows;
   }();
-  std::string text = "Constraints on the weights, with margin t and edge length l.";
-  for (const ConstraintsInfo& row : constraints_table())
-    text += fmt::format(" '{}': {}.", option_name(row.constraints), row.keeps);
-  text += " For tetrahedra, with the side l of an equilateral triangle of a face's area:";
-  for (const ConstraintsInfo& row : tets::constraints_table())
-    text += fmt::format(" '{}': {}.", option_name(row.constraints), row.keeps);
+  std::string text = "Constraints on the weights, with margin t and ";
+  for (const CellKinds kind : kEachKind) {
+    const std::string_view length = with_subject(kind, [](auto subject) { return subject.length_of_constraints; });
+    text += kind == kEachKind[0] ? fmt::format("{}.", length) : fmt::format(" For {}, with {}:", name(kind), length);
+    for (const ConstraintsInfo& row : constraints_of(kind))
+      text += fmt::format(" '{}': {}.", option_name(row.constraints), row.keeps);
+  }
   const auto use = [&s](std::string_view chosen) {
     const auto at = std::find(names.begin(), names.end(), chosen);
     s.options.constraints = all_constraints()[static_cast<std::size_t>(at - names.begin())].constraints;

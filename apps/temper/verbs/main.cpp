@@ -14,6 +14,7 @@
 #include "help/help.hpp"
 #include "options/ranks.hpp"
 #include "reports/reports.hpp"
+#include "subject.hpp"
 #include "system/system.hpp"
 #include "temper/detail/build_info.hpp"
 #include "temper/detail/suggest.hpp"
@@ -24,13 +25,13 @@
 namespace temper::app {
 
 std::span<const Verb> verbs() {
-  static constexpr auto kVerbs = std::to_array<Verb>({
+  static const auto kVerbs = std::to_array<Verb>({
       {"check", "report on the quality of a mesh, and test requirements", run_check},
-      {"optimize", "make triangles or tetrahedra well-centered: move vertices, change weights, flip edges",
+      {"optimize", "make " + any_elements() + " well-centered: move vertices, change weights, flip edges",
        run_optimize},
       {"mesh", "mesh an outline, and optimize the mesh", run_mesh},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
-      {"explain", "explain why triangles or tetrahedra are not well-centered, and find cures", run_explain},
+      {"explain", "explain why " + any_elements() + " are not well-centered, and find cures", run_explain},
 #ifdef TEMPER_WITH_ERRORS
       {"errors", "measure the errors that solvers make on a mesh", run_errors},
 #endif

@@ -73,7 +73,7 @@ void add_keep(Command& command, OptimizeSettings& s) {
 void add_common(Command& command, OptimizeSettings& s) {
   command.group("Options");
   // These two are not marked as required: see take_input.
-  add_argument(command, "IN", s.input, "Mesh file, of triangles or tetrahedra. Its content shows the format.");
+  add_argument(command, "IN", s.input, "Mesh file, of " + any_elements() + ". Its content shows the format.");
   add_mesh_output(command, s.output, "OUT");
   command.option("--output").sentence = "File to write; its suffix selects the format. '-': standard output.";
   add_purpose(command, s);
@@ -184,9 +184,10 @@ Option& add_target(Command& command, std::string& target, bool research) {
 Command optimize_command(OptimizeSettings& settings) {
   Command command(
       "optimize",
-      "Moves vertices, changes weights, and flips edges and faces, until each orthocenter is inside its triangle or "
-      "tetrahedron. In triangle meshes, each dual edge also crosses its edge. The boundary stays bit for bit, "
-      "unless --boundary allows changes.");
+      "Moves vertices, changes weights, and flips edges and faces, until each orthocenter is inside its " +
+          any_element() +
+          ". In triangle meshes, each dual edge also crosses its edge. The boundary stays bit for bit, unless "
+          "--boundary allows changes.");
   add_common(command, settings);
   add_rare(command, settings);
   command.group("Options");
