@@ -43,7 +43,7 @@ LAYERS = {
     # The tables of reports, for JSON, Python, npm and the schema.
     "report": _BELOW + ["size", "energy", "feasibility", "optimize", "quality", "explain", "dec"],
     # A library of its own, with the rules of the core: meshes of tetrahedra, on tables, reports and linear programs.
-    "tets": _BELOW + ["feasibility", "quality", "dec", "draw", "optimize", "report"],
+    "tets": _BELOW + ["regularity", "feasibility", "quality", "dec", "draw", "optimize", "report"],
     # A library of its own: sees the public headers of the core and of tets, and no other folder of src/.
     "io": _BELOW + ["projection", "location", "size", "feasibility", "quality", "dec", "mesher", "tets"],
     "lp": _BELOW + ["feasibility"],
@@ -57,7 +57,7 @@ LIBRARIES = {"tets", "io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"
 CORE = set(LAYERS) - LIBRARIES | {"tets"}  # what keeps the rules of the core
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["cell_kinds", "ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "report", "suggest", "utf8", "version"]} | {"temper": "solvers", "trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "convex": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "solver_measures": "size", "dec_io": "io", "certificate_io": "io", "file_cures": "io", "html": "io", "path": "io"}
+HEADER_LAYER = {name: "base" for name in ["cell_kinds", "ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "report", "suggest", "utf8", "version"]} | {"temper": "solvers", "criterion": "regularity", "trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "convex": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "solver_measures": "size", "dec_io": "io", "certificate_io": "io", "file_cures": "io", "html": "io", "path": "io"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath

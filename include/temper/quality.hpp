@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "temper/detail/criterion.hpp"
 #include "temper/detail/solver_measures.hpp"
 #include "temper/detail/space.hpp"
 #include "temper/energy.hpp"
@@ -45,6 +46,13 @@ struct WorstTriangle {
   std::string why;       ///< "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"
 };
 [[nodiscard]] const ReportTable& table_of(const WorstTriangle*);
+
+/// An edge as a place.
+struct EdgePlace {
+  std::array<VertexId, 2> vertices;
+  Vec2 at;  ///< Midpoint; on the sphere its longitude and latitude [degrees]
+};
+[[nodiscard]] const ReportTable& table_of(const EdgePlace*);
 
 /// Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins, and NaN
 /// to the first one.
@@ -81,11 +89,19 @@ struct Quality : SolverMeasures {
   std::size_t inverted_triangles = 0;       ///< Exact number
   std::size_t non_regular_edges = 0;        ///< Interior edges with negative dual, exact
   std::size_t negative_boundary_duals = 0;  ///< Boundary edges with h < 0, exact
-  std::size_t orthocenters_outside = 0;     ///< Triangles with some h ≤ 0, and inverted triangles, exact
-  std::size_t edges_not_crossed = 0;        ///< Edges without 0 < d < ℓ, exact
-  double well_centered_fraction = 0;        ///< Fraction of triangles with all h > 0 and 0 < d < ℓ
-  double min_h_over_l = 0;                  ///< Least over triangles and their edges; −∞ for an inverted triangle
-  double min_d_over_l = 0;                  ///< Least of d/ℓ and 1 − d/ℓ over edges
+  /// Sides of interfaces between regions with h < 0, exact: a coefficient of this region alone is negative
+  std::size_t negative_region_coefficients = 0;
+  std::size_t nonpositive_distances = 0;           ///< Interior edges with dual ≤ 0, exact
+  std::size_t nonpositive_boundary_distances = 0;  ///< Boundary edges with h ≤ 0, exact
+  std::size_t nonpositive_region_distances = 0;    ///< Sides of interfaces between regions with h ≤ 0, exact
+  std::size_t orthocenters_outside = 0;            ///< Triangles with some h ≤ 0, and inverted triangles, exact
+  std::size_t edges_not_crossed = 0;               ///< Edges without 0 < d < ℓ, exact
+  double well_centered_fraction = 0;               ///< Fraction of triangles with all h > 0 and 0 < d < ℓ
+  /// Least coefficient: dual over ℓ of edges, and h/ℓ of the sides of interfaces. It is also the least distance over ℓ
+  double min_coefficient = 0;
+  EdgePlace min_coefficient_place;
+  double min_h_over_l = 0;  ///< Least over triangles and their edges; −∞ for an inverted triangle
+  double min_d_over_l = 0;  ///< Least of d/ℓ and 1 − d/ℓ over edges
   double min_angle_deg = 0, max_angle_deg = 0;
   /// Largest over median transmissibility. The transmissibility of an interior edge is ℓ/|h_k + h_l|, the length of the
   /// face over the distance between the orthocenters (two-point flux). +∞ if a dual edge has exactly length zero; 1
@@ -97,6 +113,9 @@ struct Quality : SolverMeasures {
   std::vector<WorstTriangle> worst;  ///< Worst triangles, the worst first
 };
 [[nodiscard]] const ReportTable& table_of(const Quality*);
+/// Returns the number of violations of a criterion: of triangles if it is well_centered, else of duals, and inverted
+/// triangles. 0 means that the mesh meets it.
+[[nodiscard]] std::size_t violations(const Quality& quality, Criterion criterion);
 
 /// Quality of one triangle, for cell data.
 struct TriangleQuality {

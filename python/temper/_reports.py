@@ -14,6 +14,16 @@ from ._records import CLASSES, Record
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class EdgePlace(Record):
+    """An edge as a place."""
+
+    vertices: tuple[int, int]
+    """Its vertices."""
+    at: tuple[float, float]
+    """Its midpoint; on a sphere longitude and latitude [degrees]."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class Histogram(_looks.Histogram):
     """Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins."""
 
@@ -73,12 +83,23 @@ class Quality(_looks.Quality):
     """Interior edges with negative dual, exact."""
     negative_boundary_duals: int
     """Boundary edges with h < 0, exact."""
+    negative_region_coefficients: int
+    """Sides of interfaces between regions with h < 0, exact: the coefficient of this region alone is negative."""
+    nonpositive_distances: int
+    """Interior edges with dual ≤ 0, exact."""
+    nonpositive_boundary_distances: int
+    """Boundary edges with h ≤ 0, exact."""
+    nonpositive_region_distances: int
+    """Sides of interfaces between regions with h ≤ 0, exact."""
     orthocenters_outside: int
     """Triangles with some h ≤ 0, exact."""
     edges_not_crossed: int
     """Edges without 0 < d < ℓ, exact."""
     well_centered_fraction: float
     """Triangles with all h > 0 and 0 < d < ℓ."""
+    min_coefficient: float
+    """Least coefficient, which is dual/ℓ of edges, and h/ℓ on the sides of interfaces; also the least distance over
+    ℓ."""
     min_h_over_l: float
     """Least h/ℓ of triangles and their edges."""
     min_d_over_l: float
@@ -124,10 +145,32 @@ class Quality(_looks.Quality):
     meshes."""
     energy: dict[str, tuple[float, float, float]]
     """Total of each energy for ★0, ★1, ★2; infinite outside its domain."""
+    min_coefficient_place: EdgePlace
+    """Edge with the least coefficient."""
     histograms: Histograms = dataclasses.field(repr=False)
     """Histograms of angles, h/ℓ and d/ℓ."""
     worst: list[WorstTriangle]
     """Worst triangles, the worst first."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetEdgePlace(Record):
+    """An edge of tetrahedra as a place."""
+
+    vertices: tuple[int, int]
+    """Its vertices."""
+    at: tuple[float, float, float]
+    """Its midpoint."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TetFacePlace(Record):
+    """A face of tetrahedra as a place."""
+
+    vertices: tuple[int, int, int]
+    """Its vertices."""
+    at: tuple[float, float, float]
+    """Its centroid."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -183,6 +226,18 @@ class TetQuality(_looks.TetQuality):
     """Interior faces with negative dual edge, exact."""
     negative_boundary_duals: int
     """Boundary faces with h < 0, exact."""
+    negative_coefficients: int
+    """Interior edges with a negative coefficient, the area of the dual over ℓ, exact."""
+    negative_boundary_coefficients: int
+    """Boundary edges with a negative coefficient, exact."""
+    negative_region_coefficients: int
+    """Edges between regions with a negative coefficient of one region alone, counted once per region, exact."""
+    nonpositive_distances: int
+    """Interior faces with dual edge ≤ 0, exact."""
+    nonpositive_boundary_distances: int
+    """Boundary faces with h ≤ 0, exact."""
+    nonpositive_region_distances: int
+    """Sides of faces between regions with h ≤ 0, exact."""
     orthocenters_outside: int
     """Tetrahedra with some h ≤ 0, exact."""
     faces_not_crossed: int
@@ -193,6 +248,10 @@ class TetQuality(_looks.TetQuality):
     """Tetrahedra with all h > 0."""
     completely_well_centered_fraction: float
     """Tetrahedra with all h > 0 whose faces and edges are crossed."""
+    min_coefficient: float
+    """Least area of the dual of an edge over ℓ², also of each region alone."""
+    min_distance: float
+    """Least dual edge over ℓ of its face, and h/ℓ on the sides of interfaces."""
     min_h_over_l: float
     """Least h/ℓ of tetrahedra and their faces, ℓ the side of the equilateral triangle with the area of the face."""
     min_face_h_over_l: float
@@ -213,6 +272,10 @@ class TetQuality(_looks.TetQuality):
     """Largest over median A/\\|dual\\| of interior faces."""
     transmissibility_ratio: float
     """Largest over least A/\\|dual\\| of interior faces."""
+    min_coefficient_place: TetEdgePlace
+    """Edge with the least coefficient."""
+    min_distance_place: TetFacePlace
+    """Face with the least distance."""
     histograms: TetHistograms = dataclasses.field(repr=False)
     """Histograms of dihedral angles and h/ℓ."""
     worst: list[WorstTet]

@@ -255,6 +255,12 @@ Vec2 middle_of(const Mesh& mesh, TriangleId t) {
   return mesh.space().as_shown(part * (as_vector(a) + as_vector(b) + as_vector(c)));
 }
 
+EdgePlace place_of(const Mesh& mesh, HalfedgeId h) {
+  const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h), a);
+  const double part = mesh.space().dimension() == 2 ? 0.5 : 1;
+  return {{mesh.origin(h), mesh.target(h)}, mesh.space().as_shown(part * (as_vector(a) + as_vector(b)))};
+}
+
 WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) {
   const Subject s{mesh, t, measure_triangle(mesh, t), mesh.corners(t), names};
   WorstTriangle worst;

@@ -105,6 +105,8 @@ template <class MeshOfAnyKind, class Elements>
 
 /// The centroid of a triangle, for reports.
 [[nodiscard]] Vec2 middle_of(const Mesh& mesh, TriangleId t);
+/// The edge of h, for reports.
+[[nodiscard]] EdgePlace place_of(const Mesh& mesh, HalfedgeId h);
 
 /// The number of a vertex or a triangle in reports: the last word of its name, "12" of "point 12".
 [[nodiscard]] std::string number_of(VertexId v, const InputNames* names);

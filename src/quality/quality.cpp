@@ -3,6 +3,7 @@
 #include "temper/quality.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -20,11 +21,11 @@
 #include "mesh/blocks.hpp"
 #include "mesh/curve.hpp"
 #include "quality/measure.hpp"
+#include "regularity/duals.hpp"
 #include "size/solver_measures.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/mesh.hpp"
-#include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
@@ -103,12 +104,21 @@ Transmissibilities compare_transmissibilities(const Mesh& mesh, Executor* execut
 /// Bins of 0.05 with a bin edge at d = 0.
 Histogram empty_crossing_histogram() { return {-0.1, 0.5, std::vector<std::size_t>(12)}; }
 
+/// The edge of a dual, by its triangle in the user's order.
+struct LeastDual {
+  TriangleId triangle;
+  int k = 0;
+  friend auto operator<=>(const LeastDual&, const LeastDual&) = default;
+};
+
 struct Tally {
   explicit Tally(std::size_t n_worst) : worst(n_worst) {}
 
   std::size_t edges = 0, boundary_edges = 0;
   std::size_t inverted_triangles = 0, orthocenters_outside = 0, well_centered = 0;
-  std::size_t non_regular_edges = 0, negative_boundary_duals = 0, edges_not_crossed = 0;
+  std::size_t edges_not_crossed = 0;
+  std::array<std::size_t, 3> negative_duals = {}, nonpositive_duals = {};  // of each DualKind
+  Ranked<LeastDual> least_dual = {std::numeric_limits<double>::infinity(), {}};
   double min_h_over_l = std::numeric_limits<double>::infinity();
   double min_d_over_l = std::numeric_limits<double>::infinity();
   double min_angle_deg = std::numeric_limits<double>::infinity();
@@ -124,6 +134,7 @@ struct Tally {
 
  private:
   void add_edge(const Mesh& mesh, HalfedgeId h, const TriangleMeasure& m, int k);
+  void add_dual(DualKind kind, Sign sign, Ranked<LeastDual> dual);
 };
 
 void Tally::add(const Mesh& mesh, TriangleId t, TriangleId original) {
@@ -143,7 +154,13 @@ void Tally::add(const Mesh& mesh, TriangleId t, TriangleId original) {
       continue;
     }
     h_over_l.add(m.h_over_l[k]);
-    if (mesh.is_edge_representative(h)) add_edge(mesh, h, m, k);
+    if (is_interface(mesh, h)) add_dual(DualKind::region, m.h_sign[k], {m.h_over_l[k], {original, k}});
+    if (!mesh.is_edge_representative(h)) continue;
+    add_edge(mesh, h, m, k);
+    const DualKind kind = mesh.is_boundary(h) ? DualKind::boundary : DualKind::inside;
+    const Sign sign = mesh.is_boundary(h) ? m.h_sign[k] : dual_sign(mesh, h);
+    const double dual = mesh.is_boundary(h) ? m.h_over_l[k] : dual_over_length(mesh, h, kind, sign);
+    add_dual(kind, sign, {dual, {original, k}});
   }
 }
 
@@ -152,12 +169,14 @@ void Tally::add_edge(const Mesh& mesh, HalfedgeId h, const TriangleMeasure& m, i
   edges_not_crossed += !m.crossed[k];
   min_d_over_l = std::min(min_d_over_l, m.d_over_l[k]);
   d_over_l.add(m.d_over_l[k]);
-  if (mesh.is_boundary(h)) {
-    ++boundary_edges;
-    negative_boundary_duals += m.h_sign[k] == Sign::negative;
-    return;
-  }
-  non_regular_edges += !is_regular(mesh, h);
+  boundary_edges += mesh.is_boundary(h);
+}
+
+void Tally::add_dual(DualKind kind, Sign sign, Ranked<LeastDual> dual) {
+  negative_duals[static_cast<std::size_t>(kind)] += sign == Sign::negative;
+  nonpositive_duals[static_cast<std::size_t>(kind)] += sign != Sign::positive;
+  dual.margin = with_sign(dual.margin, sign);
+  least_dual = std::min(least_dual, dual);
 }
 
 void Tally::merge(const Tally& other) {
@@ -166,8 +185,11 @@ void Tally::merge(const Tally& other) {
   inverted_triangles += other.inverted_triangles;
   orthocenters_outside += other.orthocenters_outside;
   well_centered += other.well_centered;
-  non_regular_edges += other.non_regular_edges;
-  negative_boundary_duals += other.negative_boundary_duals;
+  for (std::size_t kind = 0; kind < 3; ++kind) {
+    negative_duals[kind] += other.negative_duals[kind];
+    nonpositive_duals[kind] += other.nonpositive_duals[kind];
+  }
+  least_dual = std::min(least_dual, other.least_dual);
   edges_not_crossed += other.edges_not_crossed;
   min_h_over_l = std::min(min_h_over_l, other.min_h_over_l);
   min_d_over_l = std::min(min_d_over_l, other.min_d_over_l);
@@ -209,9 +231,24 @@ EnergiesByStar all_energies(const Mesh& mesh, const QualityOptions& options) {
   return table;
 }
 
-/// All but the worst triangles, which it returns.
-WorstList<TriangleId> measure(Quality& q, const Mesh& mesh, const IdVector<TriangleId, TriangleId>& originals,
-                              const QualityOptions& options) {
+/// What is described in the user's mesh.
+struct Places {
+  WorstList<TriangleId> worst;
+  LeastDual least_dual;
+};
+
+void set_duals(Quality& q, const Tally& sums) {
+  q.non_regular_edges = sums.negative_duals[0];
+  q.negative_boundary_duals = sums.negative_duals[1];
+  q.negative_region_coefficients = sums.negative_duals[2];
+  q.nonpositive_distances = sums.nonpositive_duals[0];
+  q.nonpositive_boundary_distances = sums.nonpositive_duals[1];
+  q.nonpositive_region_distances = sums.nonpositive_duals[2];
+}
+
+/// All but places, which it returns.
+Places measure(Quality& q, const Mesh& mesh, const IdVector<TriangleId, TriangleId>& originals,
+               const QualityOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   const Tally sums = tally(mesh, originals, options);
   static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.brief, options.executor);
@@ -223,11 +260,12 @@ WorstList<TriangleId> measure(Quality& q, const Mesh& mesh, const IdVector<Trian
   q.histograms.angles = sums.angles;
   q.histograms.h_over_l = sums.h_over_l;
   q.histograms.d_over_l = sums.d_over_l;
-  if (q.triangles == 0) return sums.worst;
+  const Places places = {sums.worst, sums.least_dual.element};
+  if (q.triangles == 0) return places;
 
   q.inverted_triangles = sums.inverted_triangles;
-  q.non_regular_edges = sums.non_regular_edges;
-  q.negative_boundary_duals = sums.negative_boundary_duals;
+  set_duals(q, sums);
+  q.min_coefficient = sums.least_dual.margin;
   q.orthocenters_outside = sums.orthocenters_outside;
   q.edges_not_crossed = sums.edges_not_crossed;
   q.well_centered_fraction = static_cast<double>(sums.well_centered) / static_cast<double>(q.triangles);
@@ -239,14 +277,26 @@ WorstList<TriangleId> measure(Quality& q, const Mesh& mesh, const IdVector<Trian
   q.max_transmissibility_over_median = transmissibilities.max_over_median;
   q.transmissibility_ratio = transmissibilities.max_over_min;
   if (!options.brief) q.energy = all_energies(mesh, options);
-  return sums.worst;
+  return places;
 }
 
-void describe_all(Quality& q, const Mesh& original, const WorstList<TriangleId>& worst) {
-  for (const auto& ranked : worst.sorted()) q.worst.push_back(describe(original, ranked.element));
+void describe_all(Quality& q, const Mesh& original, const Places& places) {
+  for (const auto& ranked : places.worst.sorted()) q.worst.push_back(describe(original, ranked.element));
+  if (q.triangles > 0)
+    q.min_coefficient_place = place_of(original, Mesh::halfedge(places.least_dual.triangle, places.least_dual.k));
 }
 
 }  // namespace
+
+std::size_t violations(const Quality& q, Criterion criterion) {
+  if (criterion == Criterion::coefficients)
+    return q.inverted_triangles + q.non_regular_edges + q.negative_boundary_duals + q.negative_region_coefficients;
+  if (criterion == Criterion::distances)
+    return q.inverted_triangles + q.nonpositive_distances + q.nonpositive_boundary_distances +
+           q.nonpositive_region_distances;
+  const double good = std::round(q.well_centered_fraction * static_cast<double>(q.triangles));
+  return q.triangles - static_cast<std::size_t>(good);
+}
 
 Quality quality(const Mesh& original, const QualityOptions& options) {
   const NearbyCopy near(original, options.executor);
@@ -259,9 +309,9 @@ Quality quality_in_place(Mesh& mesh, const QualityOptions& options) {
   if (!is_scattered(mesh)) return quality(mesh, options);
   Quality q;
   const MeshOrder order = hilbert_order_in_place(mesh, options.executor);
-  const WorstList<TriangleId> worst = measure(q, mesh, order.triangles, options);
+  const Places places = measure(q, mesh, order.triangles, options);
   restore_order(mesh, order, options.executor);
-  describe_all(q, mesh, worst);
+  describe_all(q, mesh, places);
   return q;
 }
 

@@ -36,6 +36,14 @@ const ReportTable& table_of(const WorstTriangle*) {
   return table;
 }
 
+const ReportTable& table_of(const EdgePlace*) {
+  static const ReportTable table = report_table<EdgePlace>(
+      "EdgePlace", "An edge as a place.",
+      {{"vertices", "Its vertices", "", &EdgePlace::vertices},
+       {"at", "Its midpoint; on a sphere longitude and latitude [degrees]", "", &EdgePlace::at}});
+  return table;
+}
+
 namespace {
 
 /// A dictionary with an entry for each energy.
@@ -70,6 +78,7 @@ const ReportTable& table_of(const Quality*) {
                         measure_rows(quality_measures())};
     made.rows.push_back(energy_row());
     const Field<Quality> more[] = {
+        {"min_coefficient_place", "Edge with the least coefficient", "", &Quality::min_coefficient_place},
         {"histograms", "Histograms of angles, h/ℓ and d/ℓ", "", &Quality::histograms, ShownIn::by_key},
         {"worst", "Worst triangles, the worst first", "", &Quality::worst}};
     made.rows.insert(made.rows.end(), std::begin(more), std::end(more));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "temper/quality.hpp"
+#include "temper/tets/criterion.hpp"
 #include "temper/tets/mesh.hpp"
 
 namespace temper::tets {
@@ -29,6 +30,17 @@ struct WorstTet {
 };
 [[nodiscard]] const ReportTable& table_of(const WorstTet*);
 
+/// An edge or a face as a place.
+template <std::size_t n>
+struct PlaceOf {
+  std::array<VertexId, n> vertices;
+  Vec3 at;  ///< Centroid
+};
+using EdgePlace = PlaceOf<2>;
+using FacePlace = PlaceOf<3>;
+[[nodiscard]] const ReportTable& table_of(const EdgePlace*);
+[[nodiscard]] const ReportTable& table_of(const FacePlace*);
+
 struct Histograms {
   Histogram dihedrals;  ///< All dihedral angles [degrees]
   Histogram h_over_l;   ///< h/ℓ of each tetrahedron and face
@@ -39,14 +51,25 @@ struct Histograms {
 /// Heights are relative to the face or edge below them, so they do not depend on the size of other elements.
 struct Quality {
   std::size_t vertices = 0, inner_vertices = 0, tetrahedra = 0, faces = 0, boundary_faces = 0, edges = 0, regions = 0;
-  std::size_t inverted_tetrahedra = 0;           ///< Tetrahedra that are not positive, exact
-  std::size_t non_regular_faces = 0;             ///< Interior faces with negative dual edge, exact
-  std::size_t negative_boundary_duals = 0;       ///< Boundary faces with h < 0, exact
-  std::size_t orthocenters_outside = 0;          ///< Tetrahedra with some h ≤ 0, and inverted ones, exact
-  std::size_t faces_not_crossed = 0;             ///< Faces whose orthocenter is not strictly inside, exact
-  std::size_t edges_not_crossed = 0;             ///< Edges without 0 < d < ℓ, exact
-  double well_centered_fraction = 0;             ///< Fraction of tetrahedra with all h > 0
-  double completely_well_centered_fraction = 0;  ///< The same, with all four faces and all six edges crossed
+  std::size_t inverted_tetrahedra = 0;             ///< Tetrahedra that are not positive, exact
+  std::size_t non_regular_faces = 0;               ///< Interior faces with negative dual edge, exact
+  std::size_t negative_boundary_duals = 0;         ///< Boundary faces with h < 0, exact
+  std::size_t negative_coefficients = 0;           ///< Interior edges with negative coefficient, exact
+  std::size_t negative_boundary_coefficients = 0;  ///< Boundary edges with negative coefficient, exact
+  /// Pairs of an edge between regions and one of these, of which this region alone has a negative coefficient, exact
+  std::size_t negative_region_coefficients = 0;
+  std::size_t nonpositive_distances = 0;           ///< Interior faces with dual edge ≤ 0, exact
+  std::size_t nonpositive_boundary_distances = 0;  ///< Boundary faces with h ≤ 0, exact
+  std::size_t nonpositive_region_distances = 0;    ///< Sides of faces between regions with h ≤ 0, exact
+  std::size_t orthocenters_outside = 0;            ///< Tetrahedra with some h ≤ 0, and inverted ones, exact
+  std::size_t faces_not_crossed = 0;               ///< Faces whose orthocenter is not strictly inside, exact
+  std::size_t edges_not_crossed = 0;               ///< Edges without 0 < d < ℓ, exact
+  double well_centered_fraction = 0;               ///< Fraction of tetrahedra with all h > 0
+  double completely_well_centered_fraction = 0;    ///< The same, with all four faces and all six edges crossed
+  double min_coefficient = 0;  ///< Least coefficient of edges and their parts in regions, over the length of the edge
+  EdgePlace min_coefficient_place;
+  double min_distance = 0;  ///< Least dual of faces over ℓ, and h/ℓ of the sides of faces between regions
+  FacePlace min_distance_place;
   double min_h_over_l = 0;       ///< Least h/ℓ of tetrahedra over their faces; −∞ for an inverted tetrahedron
   double min_face_h_over_l = 0;  ///< Least h/ℓ of faces over their edges
   double min_d_over_l = 0;       ///< Least of d/ℓ and 1 − d/ℓ over edges
@@ -60,6 +83,9 @@ struct Quality {
   std::vector<WorstTet> worst;  ///< Worst tetrahedra, the worst first
 };
 [[nodiscard]] const ReportTable& table_of(const Quality*);
+/// Returns the number of violations of a criterion: of tetrahedra if it is well_centered, else of duals, and inverted
+/// tetrahedra. 0 means that the mesh meets it.
+[[nodiscard]] std::size_t violations(const Quality& quality, Criterion criterion);
 
 /// Quality of one tetrahedron, for cell data.
 struct TetrahedronQuality {

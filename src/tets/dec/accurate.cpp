@@ -1,24 +1,14 @@
 #include "tets/dec/accurate.hpp"
 
-#include <cmath>
-
 #include "dec/accurate.hpp"
-#include "geometry/predicates_inline.hpp"
-#include "tets/geometry/compact.hpp"
-#include "tets/geometry/formulas.hpp"
+#include "tets/geometry/evaluated.hpp"
 
 namespace temper::tets::accurate {
 namespace {
 
-// More than the roundings that formulas.hpp counts.
-constexpr double kBound = 32 * inlined::kUnitRoundoff;
-
-/// Evaluates a polynomial in doubles if rounding hardly changes it, else exactly. `polynomial` takes a kind of number.
 template <class Polynomial>
 double evaluated(const Polynomial& polynomial) {
-  const Estimate fast = polynomial(Estimate());
-  if (kBound * fast.permanent < temper::accurate::kRelativeError * std::abs(fast.value)) return fast.value;
-  return polynomial(exact::Compact()).rounded();
+  return tets::evaluated(temper::accurate::kRelativeError, polynomial);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ class Compact {
   }
   [[nodiscard]] Sign sign() const { return terms_.sign(); }
   [[nodiscard]] double rounded() const { return terms_.rounded(); }
+  [[nodiscard]] const auto& terms() const { return terms_; }
 
   friend Compact operator+(const Compact& a, const Compact& b) {
     return compressed(sum_within<2 * kTerms>(a.terms_, b.terms_));

@@ -3,6 +3,7 @@
 #include "temper/tets/quality.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "mesh/blocks.hpp"
 #include "quality/measure.hpp"
 #include "tets/mesh/tables.hpp"
+#include "tets/quality/coefficients.hpp"
+#include "tets/quality/duals.hpp"
 #include "tets/quality/measure.hpp"
 
 namespace temper::tets {
@@ -23,7 +26,9 @@ constexpr std::size_t kBlock = 4096;  // tetrahedra: some milliseconds of work
 struct Tally {
   explicit Tally(std::size_t n_worst) : worst(n_worst) {}
 
-  std::size_t boundary_faces = 0, inverted = 0, non_regular = 0, negative_boundary = 0, outside = 0;
+  std::size_t boundary_faces = 0, inverted = 0, outside = 0;
+  std::array<std::size_t, 3> negative_duals = {}, nonpositive_duals = {};  // of each DualKind
+  Ranked<HalffaceId> least_dual = {kInfinity, {}};
   std::size_t faces_not_crossed = 0, completely = 0;
   double min_h = kInfinity, min_face_h = kInfinity, min_dihedral = kInfinity, max_dihedral = 0;
   double volume = 0, min_volume = kInfinity, max_volume = -kInfinity;
@@ -36,6 +41,7 @@ struct Tally {
 
  private:
   void add_face(const TetMesh& mesh, HalffaceId h, const TetMeasure& m);
+  void add_dual(DualKind kind, Sign sign, double over_l, HalffaceId h);
 };
 
 void Tally::add(const TetMesh& mesh, TetId t) {
@@ -54,6 +60,8 @@ void Tally::add(const TetMesh& mesh, TetId t) {
     min_h = std::min(min_h, m.h_over_l[std::size_t(f)]);
     h_over_l.add(m.h_over_l[std::size_t(f)]);
     const HalffaceId h = TetMesh::halfface(t, f);
+    if (!mesh.is_boundary(h) && mesh.bounds_region(h))
+      add_dual(DualKind::region, m.h_sign[std::size_t(f)], m.h_over_l[std::size_t(f)], h);
     if (mesh.is_face_representative(h)) add_face(mesh, h, m);
   }
 }
@@ -67,21 +75,30 @@ void Tally::add_face(const TetMesh& mesh, HalffaceId h, const TetMeasure& m) {
   const std::size_t f = h.index % 4;
   if (mesh.is_boundary(h)) {
     ++boundary_faces;
-    negative_boundary += m.h_sign[f] == Sign::negative;
+    add_dual(DualKind::boundary, m.h_sign[f], m.h_over_l[f], h);
     return;
   }
-  const WeightedPoint d = mesh.point(mesh.opposite(h)), e = mesh.point(mesh.opposite(mesh.twin(h)));
-  const Sign conflict = power_test(a, b, c, d, e);
-  non_regular += conflict == Sign::positive;
-  const double dual = std::abs(m.h[f] + signed_height(a, c, b, e));
-  transmissibilities.push_back(conflict == Sign::zero || !(dual > 0) ? kInfinity : area(face) / dual);
+  const Sign sign = dual_sign(mesh, h);
+  const double dual = m.h[f] + signed_height(a, c, b, mesh.point(mesh.opposite(mesh.twin(h))));
+  const double face_area = area(face);
+  add_dual(DualKind::inside, sign, dual / length_of_area(face_area), h);
+  transmissibilities.push_back(sign == Sign::zero || !(std::abs(dual) > 0) ? kInfinity : face_area / std::abs(dual));
+}
+
+void Tally::add_dual(DualKind kind, Sign sign, double over_l, HalffaceId h) {
+  negative_duals[static_cast<std::size_t>(kind)] += sign == Sign::negative;
+  nonpositive_duals[static_cast<std::size_t>(kind)] += sign != Sign::positive;
+  least_dual = std::min(least_dual, {with_sign(over_l, sign), h});
 }
 
 void Tally::merge(const Tally& other) {
   boundary_faces += other.boundary_faces;
   inverted += other.inverted;
-  non_regular += other.non_regular;
-  negative_boundary += other.negative_boundary;
+  for (std::size_t kind = 0; kind < 3; ++kind) {
+    negative_duals[kind] += other.negative_duals[kind];
+    nonpositive_duals[kind] += other.nonpositive_duals[kind];
+  }
+  least_dual = std::min(least_dual, other.least_dual);
   outside += other.outside;
   faces_not_crossed += other.faces_not_crossed;
   completely += other.completely;
@@ -136,6 +153,51 @@ EdgeTally tally_edges(const TetMesh& mesh, const EdgeTable& edges, Executor* exe
   return all;
 }
 
+struct CoefficientTally {
+  std::array<std::size_t, 3> negative = {};  // of each DualKind
+  Ranked<std::array<VertexId, 2>> least = {kInfinity, {}};
+};
+
+CoefficientTally tally_coefficients(const TetMesh& mesh, Executor* executor) {
+  const Coefficients coefficients(mesh, executor);
+  std::vector<CoefficientTally> blocks(coefficients.n_blocks());
+  coefficients.visit(executor, [&](std::size_t b, const EdgeCoefficient& c) {
+    blocks[b].negative[static_cast<std::size_t>(c.kind)] += c.sign == Sign::negative;
+    blocks[b].least = std::min(blocks[b].least, {c.over_l, c.vertices});
+  });
+  CoefficientTally all;
+  for (const CoefficientTally& block : blocks) {
+    for (std::size_t kind = 0; kind < 3; ++kind) all.negative[kind] += block.negative[kind];
+    all.least = std::min(all.least, block.least);
+  }
+  return all;
+}
+
+template <std::size_t n>
+PlaceOf<n> place_of(const TetMesh& mesh, const std::array<VertexId, n>& vertices) {
+  PlaceOf<n> place = {vertices, {}};
+  for (const VertexId v : vertices) place.at = place.at + 1.0 / n * mesh.position(v);
+  return place;
+}
+
+void set_duals(Quality& q, const TetMesh& mesh, const Tally& sums) {
+  q.non_regular_faces = sums.negative_duals[0];
+  q.negative_boundary_duals = sums.negative_duals[1];
+  q.nonpositive_distances = sums.nonpositive_duals[0];
+  q.nonpositive_boundary_distances = sums.nonpositive_duals[1];
+  q.nonpositive_region_distances = sums.nonpositive_duals[2];
+  q.min_distance = sums.least_dual.margin;
+  q.min_distance_place = place_of(mesh, mesh.vertices(sums.least_dual.element));
+}
+
+void set_coefficients(Quality& q, const TetMesh& mesh, const CoefficientTally& sums) {
+  q.negative_coefficients = sums.negative[0];
+  q.negative_boundary_coefficients = sums.negative[1];
+  q.negative_region_coefficients = sums.negative[2];
+  q.min_coefficient = sums.least.margin;
+  q.min_coefficient_place = place_of(mesh, sums.least.element);
+}
+
 void compare_transmissibilities(Quality& q, std::vector<double>& values) {
   q.max_transmissibility_over_median = q.transmissibility_ratio = 1;
   if (values.empty()) return;
@@ -146,6 +208,15 @@ void compare_transmissibilities(Quality& q, std::vector<double>& values) {
 }
 
 }  // namespace
+
+std::size_t violations(const Quality& q, Criterion criterion) {
+  if (criterion == Criterion::well_centered) return q.orthocenters_outside;
+  if (criterion == Criterion::coefficients)
+    return q.inverted_tetrahedra + q.negative_coefficients + q.negative_boundary_coefficients +
+           q.negative_region_coefficients;
+  return q.inverted_tetrahedra + q.nonpositive_distances + q.nonpositive_boundary_distances +
+         q.nonpositive_region_distances;
+}
 
 Quality quality(const TetMesh& mesh, const QualityOptions& options) {
   Quality q;
@@ -166,8 +237,8 @@ Quality quality(const TetMesh& mesh, const QualityOptions& options) {
 
   const auto fraction = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(q.tetrahedra); };
   q.inverted_tetrahedra = sums.inverted;
-  q.non_regular_faces = sums.non_regular;
-  q.negative_boundary_duals = sums.negative_boundary;
+  set_duals(q, mesh, sums);
+  set_coefficients(q, mesh, tally_coefficients(mesh, options.executor));
   q.orthocenters_outside = sums.outside;
   q.faces_not_crossed = sums.faces_not_crossed;
   q.edges_not_crossed = of_edges.not_crossed;

@@ -34,6 +34,20 @@ const ReportTable& table_of(const WorstTet*) {
   return table;
 }
 
+const ReportTable& table_of(const EdgePlace*) {
+  static const ReportTable table = report_table<EdgePlace>(
+      "TetEdgePlace", "An edge of tetrahedra as a place.",
+      {{"vertices", "Its vertices", "", &EdgePlace::vertices}, {"at", "Its midpoint", "", &EdgePlace::at}});
+  return table;
+}
+
+const ReportTable& table_of(const FacePlace*) {
+  static const ReportTable table = report_table<FacePlace>(
+      "TetFacePlace", "A face of tetrahedra as a place.",
+      {{"vertices", "Its vertices", "", &FacePlace::vertices}, {"at", "Its centroid", "", &FacePlace::at}});
+  return table;
+}
+
 const ReportTable& table_of(const Quality*) {
   static const ReportTable table = [] {
     ReportTable made = {"TetQuality",
@@ -42,6 +56,8 @@ const ReportTable& table_of(const Quality*) {
                         "edge its own.",
                         measure_rows(quality_measures())};
     const Field<Quality> more[] = {
+        {"min_coefficient_place", "Edge with the least coefficient", "", &Quality::min_coefficient_place},
+        {"min_distance_place", "Face with the least distance", "", &Quality::min_distance_place},
         {"histograms", "Histograms of dihedral angles and h/ℓ", "", &Quality::histograms, ShownIn::by_key},
         {"worst", "Worst tetrahedra, the worst first", "", &Quality::worst}};
     made.rows.insert(made.rows.end(), std::begin(more), std::end(more));

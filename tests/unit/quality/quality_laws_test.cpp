@@ -71,10 +71,13 @@ void expect_same_counts(const Quality& a, const Quality& b) {
   EXPECT_EQ(a.orthocenters_outside, b.orthocenters_outside);
   EXPECT_EQ(a.edges_not_crossed, b.edges_not_crossed);
   EXPECT_EQ(a.well_centered_fraction, b.well_centered_fraction);
+  for (const CriterionInfo& row : criteria_table())
+    EXPECT_EQ(violations(a, row.criterion), violations(b, row.criterion)) << row.name;
 }
 
 void expect_same_shape(const Quality& a, const Quality& b) {
   expect_same_counts(a, b);
+  expect_close(a.min_coefficient, b.min_coefficient);
   expect_close(a.min_h_over_l, b.min_h_over_l);
   expect_close(a.min_d_over_l, b.min_d_over_l);
   expect_close(a.min_angle_deg, b.min_angle_deg);
@@ -296,6 +299,8 @@ Quality naive_counts(const Mesh& mesh) {
     q.orthocenters_outside += !inside;
     well_centered += inside && crossed;
   }
+  q.nonpositive_distances = q.non_regular_edges;  // no dual of these meshes is 0
+  q.nonpositive_boundary_distances = q.negative_boundary_duals;
   q.vertices = mesh.n_vertices();
   q.triangles = mesh.n_triangles();
   q.edges = edges.size();

@@ -1,6 +1,14 @@
 // Written by scripts/docs/records.py --write from the tables in the library. Do not edit.
 import type { Certificate } from './types.ts';
 
+/** An edge as a place. */
+export interface EdgePlace {
+  /** Its vertices. */
+  vertices: [number, number];
+  /** Its midpoint; on a sphere longitude and latitude [degrees]. */
+  at: [number, number];
+}
+
 /** Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins. */
 export interface Histogram {
   low: number;
@@ -52,12 +60,22 @@ export interface Quality {
   non_regular_edges: number;
   /** Boundary edges with h < 0, exact. */
   negative_boundary_duals: number;
+  /** Sides of interfaces between regions with h < 0, exact: the coefficient of this region alone is negative. */
+  negative_region_coefficients: number;
+  /** Interior edges with dual ≤ 0, exact. */
+  nonpositive_distances: number;
+  /** Boundary edges with h ≤ 0, exact. */
+  nonpositive_boundary_distances: number;
+  /** Sides of interfaces between regions with h ≤ 0, exact. */
+  nonpositive_region_distances: number;
   /** Triangles with some h ≤ 0, exact. */
   orthocenters_outside: number;
   /** Edges without 0 < d < ℓ, exact. */
   edges_not_crossed: number;
   /** Triangles with all h > 0 and 0 < d < ℓ. */
   well_centered_fraction: number;
+  /** Least coefficient, which is dual/ℓ of edges, and h/ℓ on the sides of interfaces; also the least distance over ℓ. */
+  min_coefficient: number;
   /** Least h/ℓ of triangles and their edges. */
   min_h_over_l: number;
   /** Least d/ℓ or 1 − d/ℓ of edges. */
@@ -100,6 +118,8 @@ export interface Quality {
   max_centroid_offset_over_size: number;
   /** Total of each energy for ★0, ★1, ★2; infinite outside its domain. */
   energy: Record<'F' | 'T' | 'dT' | 'BH' | 'BHs' | 'BP' | 'nF' | 'nT' | 'ndT' | 'ODT', [number, number, number]>;
+  /** Edge with the least coefficient. */
+  min_coefficient_place: EdgePlace;
   /** Histograms of angles, h/ℓ and d/ℓ. */
   histograms: Histograms;
   /** Worst triangles, the worst first. */
