@@ -18,8 +18,9 @@
 
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
 TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "crossing", "dual", "height_over_face", "dual_of_face");
-TEMPER_PYTHON_NAMES(temper::Constraints, "well_centered", "heights_only", "regular", "completely_well_centered");
-TEMPER_PYTHON_NAMES(temper::WeightGoal, "margin", "change", "elastic", "center", "accuracy");
+TEMPER_PYTHON_NAMES(temper::Constraints, "well_centered", "heights_only", "regular", "coefficients", "distances",
+                    "completely_well_centered");
+TEMPER_PYTHON_NAMES(temper::WeightGoal, "margin", "change", "elastic", "center", "accuracy", "least");
 
 namespace temper::python {
 namespace {

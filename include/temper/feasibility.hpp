@@ -5,6 +5,7 @@
 //   - all h ≥ tℓ and all tℓ ≤ d ≤ (1 − t)ℓ
 //   - all h ≥ tℓ
 //   - the dual lengths of given edges ≥ tℓ
+//   - dual lengths inside, and heights over the boundary and over both sides of interfaces between regions
 //
 // A linear program finds the best margin t, the least change of weights for a given margin, or the least violation. If
 // no weights exist, a certificate proves it. Exact arithmetic verifies the certificate without linear programming.
@@ -73,9 +74,12 @@ class LpSolver {
 
 /// The inequalities to satisfy.
 enum class Constraints {
-  well_centered,             ///< Heights and crossings
-  heights_only,              ///< Orthocenters inside their triangles; dual edges need not cross their own edges
-  regular,                   ///< Dual lengths of interior edges: all of them, or the prescribed ones
+  well_centered,  ///< Heights and crossings
+  heights_only,   ///< Orthocenters inside their triangles; dual edges need not cross their own edges
+  regular,        ///< Dual lengths of interior edges: all of them, or the prescribed ones
+  coefficients,  ///< For unknowns at vertices: dual lengths of interior edges ≥ tℓ. A smaller one may stay as it is, if
+                 ///< it is not negative. Heights over the boundary and over both sides of interfaces ≥ 0
+  distances,                 ///< For unknowns in cells: these dual lengths and these heights, all of them ≥ tℓ
   completely_well_centered,  ///< Of tetrahedra alone (temper/tets/weights.hpp)
 };
 
@@ -96,9 +100,10 @@ struct ConstraintsInfo {
 /// One inequality of the constraints.
 struct WeightConstraint {
   enum class Kind {
-    height,            ///< Height h over edge pq of the triangle pqr, counter-clockwise
-    crossing,          ///< Crossing d from p towards q, for any edge pq
-    dual,              ///< Dual length of pq: the sum of h over pq in the triangles pqr and qps, both counter-clockwise
+    height,    ///< Height h over edge pq of the triangle pqr, counter-clockwise
+    crossing,  ///< Crossing d from p towards q, for any edge pq
+    dual,      ///< Dual length of pq: the sum of h over pq in the triangles pqr and qps, both counter-clockwise. Of
+               ///< tetrahedra, the two triangles are faces of the surface (temper/tets/weights.hpp)
     height_over_face,  ///< Height over the face pqr of the positive tetrahedron pqrs
     dual_of_face,      ///< Dual length of pqr: the sum of the heights over it in the tetrahedra pqrs and prqt
   };
@@ -112,14 +117,15 @@ struct WeightConstraint {
 /// "height", "crossing", "dual", "height_over_face", "dual_of_face".
 [[nodiscard]] std::string_view name(WeightConstraint::Kind kind);
 
-/// Reach of certificates of `regular`: they assume that weights differ by less than this many ℓ² along the edges of
-/// their triangles. (The other constraints bound these differences themselves.) With larger differences h would lose 20
-/// of its 53 bits.
+/// Reach of certificates about dual lengths (`regular`, `coefficients`, `distances`): they assume that weights differ
+/// by less than this many ℓ² along the edges of their triangles. (The other constraints bound these differences
+/// themselves.) With larger differences h would lose 20 of its 53 bits.
 inline constexpr double kWeightReach = 0x1p20;
-/// Margin that certificates of `regular` refute in the plane. With w = |x|² − z all dual lengths are linear in z, so
-/// weights that attain one positive margin can be scaled to attain any.
+/// Margin that certificates about dual lengths refute in the plane. With w = |x|² − z all dual lengths are linear in z,
+/// so weights that attain one positive margin can be scaled to attain any. If heights count, too, and their best margin
+/// is negative, a certificate refutes margin 0.
 inline constexpr double kRefutedDual = 0x1p-10;
-/// Least margin that certificates of `regular` refute on the sphere, where weights cannot be scaled this way.
+/// Least margin that certificates about dual lengths refute on the sphere, where weights cannot be scaled this way.
 /// check_certificate has enough bits for this margin.
 inline constexpr double kLeastRefutedDual = 0x1p-20;
 
@@ -128,6 +134,9 @@ inline constexpr double kLeastRefutedDual = 0x1p-20;
 ///   height  N = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r) = 2 h ℓ S,               M = 2 ℓ² S
 ///   crossing   N = ℓ² + w_p − w_q                                = 2 d ℓ,                 M = 2 ℓ²
 ///   dual    N = λ_q (r × s) + λ_r (s × q) + λ_s (q × r)       = 2 (h_r + h_s) S T / ℓ, M = 2 S T
+///
+/// Constraints of `coefficients` are N_c ≥ margin · M_c, and only dual lengths of interior edges have a margin. Their
+/// sum is a contradiction if the rest is < 0.
 ///
 /// with D_p = (q − p)·(r − p) and so on, and S twice the area of pqr. For a dual, p is the origin, λ_v = |v|² − w_v +
 /// w_p, and T is twice the area of qps. The proof is a sum of the constraints with multipliers ≥ 0. If the weights
@@ -220,6 +229,7 @@ enum class WeightGoal {
   elastic,   ///< Least violation of the requested margin, but none is bad if good weights exist; then the least change
   center,    ///< Analytic center: the greatest product of all h/ℓ, d/ℓ, 1 − d/ℓ or dual lengths/ℓ
   accuracy,  ///< Least sum of squared offsets with the requested margin, or with half of the best one
+  least,  ///< Least sum of squared changes of d/ℓ over all edges, with the requested margin, or with half of the best
 };
 
 /// For `regular`, center and accuracy also keep crossings d between −kCrossingReach ℓ and (1 + kCrossingReach) ℓ.
@@ -329,8 +339,9 @@ struct WeightReport {
                                    const IdVector<VertexId, double>& to);
 
 /// Finds weights for a mesh with fixed positions and connectivity. The answers of solvers are not trusted: exact
-/// predicates and check_certificate decide. `convex` is for center and accuracy, which take the linear programs only if
-/// it finds no weights. Errors: a margin out of range, a goal without its solver. Precondition: no erased triangles.
+/// predicates and check_certificate decide. `convex` is for center, accuracy and least, which take the linear programs
+/// only if it finds no weights. Errors: a margin out of range, a goal without its solver. Precondition: no erased
+/// triangles.
 [[nodiscard]] Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options = {},
                                                   ConvexSolver* convex = nullptr);
 

@@ -100,21 +100,30 @@ bool counts(Constraints constraints, Kind kind) {
       return kind == Kind::height;
     case Constraints::regular:
       return kind == Kind::dual;
+    case Constraints::coefficients:
+    case Constraints::distances:
+      return kind == Kind::dual || kind == Kind::height;
     case Constraints::completely_well_centered:
       return false;
   }
   return false;
 }
 
+/// Says whether h is the only halfedge of its edge, or between two regions.
+bool is_outer(const Mesh& mesh, HalfedgeId h, HalfedgeId back) {
+  return !back.valid() || mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(back));
+}
+
 /// Says whether c is one of the mesh, with no vertex more than its kind has.
-bool is_of(const Mesh& mesh, const WeightConstraint& c) {
+bool is_of(const Mesh& mesh, const WeightConstraint& c, bool outer_heights) {
   if (c.t.valid() || (c.s.valid() && c.kind != Kind::dual) || (c.r.valid() && c.kind == Kind::crossing)) return false;
   const auto is_vertex = [&](VertexId v) { return v.index < mesh.n_vertices() && !mesh.is_isolated(v); };
   if (!is_vertex(c.p) || !is_vertex(c.q)) return false;
   const HalfedgeId h = mesh.find_halfedge(c.p, c.q), back = mesh.find_halfedge(c.q, c.p);
   if (c.kind == Kind::crossing) return h.valid() || back.valid();
   if (!h.valid() || mesh.opposite(h) != c.r) return false;
-  return c.kind == Kind::height || (back.valid() && mesh.opposite(back) == c.s);
+  if (c.kind == Kind::height) return !outer_heights || is_outer(mesh, h, back);
+  return back.valid() && mesh.opposite(back) == c.s;
 }
 
 /// z is 0 in the plane.
@@ -143,7 +152,7 @@ class PlaneTerms : public WeightDifferences {
   /// b of an edge of a triangle whose third corner is in `others`; a crossing has none.
   [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, std::span<const VertexId> others) const {
     const Number length = squared_distance(a, b);
-    if (constraints_ == Constraints::regular) return Number(kWeightReach) * length;
+    if (assumes_reach(constraints_)) return Number(kWeightReach) * length;
     if (constraints_ != Constraints::heights_only) return length;
     Number across = abs(squared_distance(a, others[0]) - squared_distance(b, others[0]));
     return (across - length).sign() == Sign::positive ? across : length;
@@ -188,7 +197,7 @@ class SphereTerms {
     const Vector3 p = exact_vector(at(a)), q = exact_vector(at(b));
     const Number pq = dot(p, q);
     std::optional<double> most = larger(distance_from_one(pq, dot(p, p)), distance_from_one(dot(q, q), pq));
-    if (most && constraints_ == Constraints::regular) return Number(std::min(kWeightReach * *most, 1.0));
+    if (most && assumes_reach(constraints_)) return Number(std::min(kWeightReach * *most, 1.0));
     if (constraints_ == Constraints::heights_only) {
       const Vector3 across = exact_vector(at(others[0]));
       most = larger(most, distance_from_one(dot(across, q), dot(across, p)));
@@ -208,6 +217,7 @@ class SphereTerms {
     return residual * Number(kRoundedDown / (1 + w));
   }
   static constexpr bool kPartsHaveFactors = true;
+  static constexpr Kind kInnerDual = Kind::dual;
 
  private:
   [[nodiscard]] Vec3 at(VertexId v) const {
@@ -235,8 +245,9 @@ std::string_view name(CertificateCheck check) {
 
 CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate) {
   if (!has_good_multipliers(certificate)) return CertificateCheck::bad_multiplier;
+  const bool outer = assumes_reach(certificate.constraints);
   for (const auto& term : certificate.terms) {
-    if (!counts(certificate.constraints, term.constraint.kind) || !is_of(mesh, term.constraint)) {
+    if (!counts(certificate.constraints, term.constraint.kind) || !is_of(mesh, term.constraint, outer)) {
       return CertificateCheck::not_of_this_mesh;
     }
   }

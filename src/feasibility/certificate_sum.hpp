@@ -59,6 +59,12 @@ Polynomial polynomial_of_crossing(const Vector& pq, double margin) {
   return polynomial;
 }
 
+/// Says whether only kWeightReach bounds the differences of weights.
+constexpr bool assumes_reach(Constraints constraints) {
+  return constraints == Constraints::regular || constraints == Constraints::coefficients ||
+         constraints == Constraints::distances;
+}
+
 inline bool has_good_multipliers(const Certificate& certificate) {
   const auto good = [](const Certificate::Term& term) {
     return std::isfinite(term.multiplier) && term.multiplier >= 0;
@@ -136,13 +142,15 @@ struct WeightDifferences {
   /// The greatest value of R w relative to w_root.
   [[nodiscard]] static Number most(const Number& residual, const Number& reach) { return abs(residual) * reach; }
   static constexpr bool kPartsHaveFactors = false;
+  static constexpr Kind kInnerDual = Kind::dual;
 };
 
 /// The sum, vertex by vertex, and the edges along which weights, or σ, differ by a bound.
 template <class Terms>
 class Sum {
  public:
-  Sum(const Terms& terms, const Certificate& certificate, const Scale& scale) : terms_(terms), scale_(scale) {
+  Sum(const Terms& terms, const Certificate& certificate, const Scale& scale)
+      : terms_(terms), scale_(scale), constraints_(certificate.constraints) {
     for (const auto& term : certificate.terms) {
       if (term.multiplier > 0) add(term, certificate.margin);
     }
@@ -185,8 +193,13 @@ class Sum {
     }
   }
 
+  /// Of coefficients, only dual lengths inside have a margin.
+  [[nodiscard]] bool has_margin(const WeightConstraint& c) const {
+    return constraints_ != Constraints::coefficients || c.kind == Terms::kInnerDual;
+  }
+
   void add(const Certificate::Term& term, double margin) {
-    const Polynomial polynomial = terms_.polynomial_of(term.constraint, margin);
+    const Polynomial polynomial = terms_.polynomial_of(term.constraint, has_margin(term.constraint) ? margin : 0);
     const Number multiplier(scale_.of(term));
     constant_ += multiplier * polynomial.constant;
     int k = 0;
@@ -201,6 +214,7 @@ class Sum {
 
   const Terms& terms_;
   const Scale& scale_;
+  Constraints constraints_;
   Number constant_;
   std::map<VertexId, Node> nodes_;  // ordered: the same path whatever the order of the terms
 };
@@ -245,7 +259,9 @@ Number Sum<Terms>::upper_bound() const {
 template <class Terms>
 CertificateCheck check_sum(const Terms& terms, const Certificate& certificate, const Scale& scale) {
   if (!scale.in_range) return CertificateCheck::out_of_range;
-  const bool proves = Sum<Terms>(terms, certificate, scale).upper_bound().sign() != Sign::positive;
+  const Sign sign = Sum<Terms>(terms, certificate, scale).upper_bound().sign();
+  const bool may_be_zero = certificate.constraints != Constraints::coefficients;
+  const bool proves = sign == Sign::negative || (may_be_zero && sign == Sign::zero);
   return proves ? CertificateCheck::proves : CertificateCheck::proves_nothing;
 }
 

@@ -22,6 +22,13 @@ struct Bound {
 };
 [[nodiscard]] Bound bound_margin(const Demand& demand, std::span<const CellId> cells, LpSolver& solver);
 
+/// The margin to refute when a bound rules out all weights. `duals`: for dual lengths in the plane, unless the best
+/// margin is below zero.
+[[nodiscard]] inline double refuted_margin(const Demand& demand, const Bound& bound, double duals) {
+  if (!demand.has_duals() || (demand.has_outer_heights() && bound.best.margin < -kNoMargin)) return 0;
+  return demand.space().is_plane() ? duals : kLeastRefutedDual;
+}
+
 /// A certificate that refutes the margin, with as few terms as possible; without terms when the checker accepts none.
 [[nodiscard]] Certificate certify(const Demand& demand, const Bound& bound, double margin);
 

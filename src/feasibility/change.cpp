@@ -27,6 +27,8 @@ namespace {
 constexpr double kNoChange = 1e-8;
 // The cost of a unit of u, against ℓ/2 for an edge: so small that it decides only between equal sums over the edges.
 constexpr double kTieBreak = 1e-4;
+// The margin of constraints that may be 0, far above the rounding of the solvers and far below any use.
+constexpr double kAboveZero = 1e-6;
 // The second elastic program may violate this much more than the least, relative and absolute: its own tolerance.
 constexpr double kSameViolation = 1e-9;
 
@@ -40,7 +42,8 @@ struct Program {
 class ProgramBuilder {
  public:
   ProgramBuilder(const RegionProblem& problem, const Region& region, bool elastic)
-      : demand_(problem.demand),
+      : problem_(problem),
+        demand_(problem.demand),
         region_(region),
         start_(problem.start),
         margin_(problem.margin),
@@ -121,8 +124,8 @@ class ProgramBuilder {
 
   void add_rows(const WeightConstraint& constraint) {
     const LinearForm form = demand_.linear_form(constraint);
-    add_row(form, margin_, elastic_);
-    if (elastic_ && floor_ > -kUnbounded) add_row(form, floor_, false);
+    add_row(form, problem_.margin_of(constraint, margin_), elastic_);
+    if (elastic_ && floor_ > -kUnbounded) add_row(form, problem_.margin_of(constraint, floor_), false);
   }
   void add_row(const LinearForm& form, double margin, bool may_violate) {
     const LinearForm kept = beyond_margin(form, margin);
@@ -134,6 +137,7 @@ class ProgramBuilder {
     p_.lp.end_row(margin * scale_of(form, potential) - numerator_of(form, potential), kUnbounded);
   }
 
+  const RegionProblem& problem_;
   const Demand& demand_;
   const Region& region_;
   const IdVector<VertexId, double>& start_;
@@ -178,6 +182,15 @@ RegionChange read_change(const RegionProblem& problem, const Region& region, con
 }
 
 }  // namespace
+
+double RegionProblem::margin_of(const WeightConstraint& constraint, double asked) const {
+  if (!demand.allows_zero()) return asked;
+  const double least = std::min(asked, kAboveZero);
+  if (!demand.has_margin(constraint)) return least;
+  const auto potential = [&](VertexId v) { return potential_of(demand.space(), start[v]); };
+  const double before = value_of(demand.linear_form(constraint), potential);
+  return before < 0 ? asked : std::clamp(before, least, asked);
+}
 
 RegionChange least_change(const RegionProblem& problem, const Region& region, LpSolver& solver) {
   Program p = ProgramBuilder(problem, region, false).build();

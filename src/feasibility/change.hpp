@@ -13,6 +13,7 @@ struct RegionChange {
   LpStatus status = LpStatus::failed;
   std::vector<double>
       change;  ///< of the potential (potential.hpp) of each free vertex; exactly 0 where nothing has to change
+  std::vector<WeightConstraint> conflict = {};  ///< of least_squares, if there are no weights: where the conflict is
 };
 
 /// The constraints on the weights of a region.
@@ -21,10 +22,18 @@ struct RegionProblem {
   const VertexWeights& start;  ///< the weights before the change; the weights of the rim stay
   double margin = 0;
   double floor = -kUnbounded;  ///< elastic weights have at least this margin, whatever they violate
+
+  /// What one constraint must keep for a margin. If zero is allowed, a constraint inside may stay as small as it was.
+  [[nodiscard]] double margin_of(const WeightConstraint& constraint, double asked) const;
 };
 
 /// Minimizes Σ |Δw_i − Δw_j| / (2ℓ) over the edges of the region, subject to the margin.
 [[nodiscard]] RegionChange least_change(const RegionProblem& problem, const Region& region, LpSolver& solver);
+
+/// Minimizes Σ (Δd/ℓ)² over the edges of the region, subject to the margin. If `elastic`, constraints that contradict
+/// each other are violated, with the least sum up to the solver's weighting.
+[[nodiscard]] RegionChange least_squares(const RegionProblem& problem, const Region& region, ConvexSolver& solver,
+                                         bool elastic = false);
 
 /// Minimizes the violation of the margin, summed over h/ℓ, d/ℓ, 1 − d/ℓ and dual length/ℓ. Among these weights it takes
 /// the weights with the least change. No weights: `floor` is above what the region can have.

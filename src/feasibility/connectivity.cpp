@@ -221,10 +221,12 @@ std::string_view name(SearchEnd end) {
 Expected<ConnectivityReport> best_connectivity(const Mesh& mesh, LpSolver& solver, const ConnectivityOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   if (auto error = expect_no_period(mesh, "best_connectivity()")) return *std::move(error);
-  if (options.constraints == Constraints::regular) {
-    return InputError{ErrorCode::invalid_option, "",
-                      "constraints: expected well_centered or heights_only, found regular: every regular triangulation "
-                      "keeps them"};
+  if (options.constraints != Constraints::well_centered && options.constraints != Constraints::heights_only) {
+    const std::string why =
+        options.constraints == Constraints::regular ? ": every regular triangulation keeps them" : "";
+    return InputError{
+        ErrorCode::invalid_option, "",
+        "constraints: expected well_centered or heights_only, found " + std::string(name(options.constraints)) + why};
   }
   return ConnectivitySearch(mesh, solver, options).run();
 }

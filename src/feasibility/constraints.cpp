@@ -51,13 +51,21 @@ LinearForm sphere_form(const Mesh& mesh, const WeightConstraint& constraint) {
 
 constexpr double kDegrees = 57.29577951308232;
 
-constexpr std::array<ConstraintsInfo, 3> kConditions = {{
+constexpr std::array<ConstraintsInfo, 5> kConditions = {{
     {Constraints::well_centered, "well_centered", "h >= t l and t l <= d <= (1 - t) l",
      "weights make every triangle well-centered", "no weights make every triangle well-centered"},
     {Constraints::heights_only, "heights_only", "h >= t l", "weights bring every orthocenter inside its triangle",
      "no weights bring every orthocenter inside its triangle"},
     {Constraints::regular, "regular", "dual length >= t l", "weights make these edges regular",
      "no weights make these edges regular, if weights differ by less than 2^20 l^2 along edges"},
+    {Constraints::coefficients, "coefficients",
+     "dual length >= t l inside, h >= 0 over the boundary and over both sides of interfaces",
+     "weights make no coefficient of an edge negative",
+     "no weights make all coefficients of edges positive or zero, if weights differ by less than 2^20 l^2 along edges"},
+    {Constraints::distances, "distances",
+     "dual length >= t l inside, h >= t l over the boundary and over both sides of interfaces",
+     "weights make all distances between centers positive",
+     "no weights make all distances between centers positive, if weights differ by less than 2^20 l^2 along edges"},
 }};
 
 double scale_on_sphere(const Mesh& mesh, const WeightConstraint& c) {
@@ -107,7 +115,8 @@ WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h) {
 }
 
 TriangleDemand::TriangleDemand(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges)
-    : Demand(mesh.space(), constraints, constraints == Constraints::well_centered), mesh_(mesh) {
+    : Demand(mesh.space(), constraints, constraints == Constraints::well_centered, WeightConstraint::Kind::dual),
+      mesh_(mesh) {
   if (edges.empty()) return;
   prescribed_ = IdVector<HalfedgeId, std::uint8_t>(mesh.n_halfedges(), 0);
   for (const HalfedgeId h : edges) {
@@ -144,7 +153,10 @@ std::vector<WeightConstraint> TriangleDemand::constraints_of(std::span<const Cel
   const std::vector<TriangleId> triangles = as_triangles(cells);
   std::vector<WeightConstraint> constraints;
   for (const TriangleId t : triangles) {
-    for (int k = 0; k < 3 && has_heights(); ++k) constraints.push_back(height_constraint(mesh_, Mesh::halfedge(t, k)));
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(t, k);
+      if (has_height(h)) constraints.push_back(height_constraint(mesh_, h));
+    }
   }
   for (const HalfedgeId h : temper::edges_of(mesh_, triangles)) {
     if (has_crossings()) {
@@ -185,10 +197,9 @@ bool TriangleDemand::is_kept(CellId cell, const VertexWeights& weights) const {
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k);
     const WeightedPoint p = at(mesh_.origin(h)), q = at(mesh_.target(h)), r = at(mesh_.opposite(h));
-    if (has_heights() && signed_height_sign(space(), p, q, r) != Sign::positive) return false;
+    if (has_height(h) && !is_good(signed_height_sign(space(), p, q, r))) return false;
     if (!has_dual(h)) continue;
-    if (power_test(space(), p, q, r, space().image(at(mesh_.opposite(mesh_.twin(h))), p)) != Sign::negative)
-      return false;
+    if (!is_good(-power_test(space(), p, q, r, space().image(at(mesh_.opposite(mesh_.twin(h))), p)))) return false;
   }
   return true;
 }
@@ -196,10 +207,10 @@ bool TriangleDemand::is_kept(CellId cell, const VertexWeights& weights) const {
 double TriangleDemand::margin_of(CellId cell, const VertexWeights& weights) const {
   double margin = kUnbounded;
   const auto potential = [&](VertexId v) { return potential_of(space(), weights[v]); };
-  const auto value = [&](const WeightConstraint& c) { return value_of(linear_form(c), potential); };
+  const auto value = [&](const WeightConstraint& c) { return counted(c, value_of(linear_form(c), potential)); };
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(TriangleId(cell.index), k);
-    if (has_heights()) margin = std::min(margin, value(height_constraint(mesh_, h)));
+    if (has_height(h)) margin = std::min(margin, value(height_constraint(mesh_, h)));
     if (has_crossings()) {
       const double crossing = value(split_constraint(mesh_.origin(h), mesh_.target(h)));
       margin = std::min({margin, crossing, 1 - crossing});

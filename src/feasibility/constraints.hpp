@@ -44,6 +44,11 @@ namespace temper {
   return mesh.space().weight(p) == w ? p : mesh.space().with_weight(p, w);
 }
 
+/// Says whether only one triangle has the edge of h, or two of different regions.
+[[nodiscard]] inline bool bounds_region(const Mesh& mesh, HalfedgeId h) {
+  return mesh.is_boundary(h) || mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)));
+}
+
 /// The height over the edge of h in its triangle, and its dual length.
 [[nodiscard]] WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h);
 /// Precondition: h is inside the mesh.
@@ -72,6 +77,10 @@ class TriangleDemand final : public Demand {
   [[nodiscard]] double reach(VertexId p, VertexId q, std::span<const VertexId> corners) const override;
 
  private:
+  /// Says whether the height over the edge of h in its triangle counts.
+  [[nodiscard]] bool has_height(HalfedgeId h) const {
+    return has_heights() || (has_outer_heights() && bounds_region(mesh_, h));
+  }
   /// Says whether the dual length of the edge of h counts.
   [[nodiscard]] bool has_dual(HalfedgeId h) const {
     return has_duals() && !mesh_.is_boundary(h) && (prescribed_.empty() || prescribed_[h] != 0);

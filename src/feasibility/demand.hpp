@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "feasibility/potential.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/detail/ids.hpp"
 #include "temper/detail/space.hpp"
 #include "temper/feasibility.hpp"
@@ -80,15 +81,25 @@ class Demand {
   virtual ~Demand() = default;
 
   [[nodiscard]] Constraints constraints() const { return constraints_; }
+  /// Says whether heights over all sides of cells count.
   [[nodiscard]] bool has_heights() const { return !has_duals(); }
+  /// Says whether heights over the boundary and over both sides of interfaces count, next to dual lengths.
+  [[nodiscard]] bool has_outer_heights() const {
+    return constraints_ == Constraints::coefficients || constraints_ == Constraints::distances;
+  }
   [[nodiscard]] bool has_crossings() const { return has_crossings_; }
-  [[nodiscard]] bool has_duals() const { return constraints_ == Constraints::regular; }
+  [[nodiscard]] bool has_duals() const { return constraints_ == Constraints::regular || has_outer_heights(); }
+  /// Says whether weights that attain a margin can be stretched to attain any, up to kMostMargin.
+  [[nodiscard]] bool is_stretchable() const { return has_duals() && !has_outer_heights(); }
+  /// Says whether a constraint may be 0.
+  [[nodiscard]] bool allows_zero() const { return constraints_ == Constraints::coefficients; }
+  [[nodiscard]] bool is_good(Sign sign) const {
+    return sign == Sign::positive || (allows_zero() && sign == Sign::zero);
+  }
+  /// Says whether the margin is about this constraint.
+  [[nodiscard]] bool has_margin(const WeightConstraint& c) const { return !allows_zero() || c.kind == inner_dual_; }
   /// The plane, too, if cells are tetrahedra: weights are the potentials.
   [[nodiscard]] const Space& space() const { return space_; }
-  /// The margin that is refuted when no weights satisfy the constraints; `duals`: for dual lengths, in the plane.
-  [[nodiscard]] double refuted_margin(double duals) const {
-    return !has_duals() ? 0 : space_.is_plane() ? duals : kLeastRefutedDual;
-  }
 
   // --- the mesh ------------------------------------------------------------------------------------
   [[nodiscard]] virtual std::size_t n_vertices() const = 0;
@@ -132,13 +143,19 @@ class Demand {
   [[nodiscard]] virtual double reach(VertexId p, VertexId q, std::span<const VertexId> corners) const = 0;
 
  protected:
-  Demand(const Space& space, Constraints constraints, bool has_crossings)
-      : space_(space), constraints_(constraints), has_crossings_(has_crossings) {}
+  Demand(const Space& space, Constraints constraints, bool has_crossings, WeightConstraint::Kind inner_dual)
+      : space_(space), constraints_(constraints), has_crossings_(has_crossings), inner_dual_(inner_dual) {}
+
+  /// The value of a constraint as it counts in a margin.
+  [[nodiscard]] double counted(const WeightConstraint& c, double value) const {
+    return has_margin(c) || value < 0 ? value : kUnbounded;
+  }
 
  private:
   Space space_;
   Constraints constraints_;
   bool has_crossings_;
+  WeightConstraint::Kind inner_dual_;
 };
 
 /// The corners of these cells, sorted, each once.

@@ -27,8 +27,9 @@
 namespace temper {
 namespace {
 
-constexpr int kHalvings = 30;   // of the requested margin: down to the rounding of the programs
-constexpr double kKept = 1e-9;  // a margin is kept if at most this is lacking: the solvers' tolerance
+constexpr int kHalvings = 30;      // of the requested margin: down to the rounding of the programs
+constexpr double kLessMargin = 8;  // the next margin of least weights, whose bound may be far above what they can have
+constexpr double kKept = 1e-9;     // a margin is kept if at most this is lacking: the solvers' tolerance
 
 double value(const Demand& demand, const WeightConstraint& constraint, const VertexWeights& weights) {
   return value_of(demand.linear_form(constraint), [&](VertexId v) { return potential_of(demand.space(), weights[v]); });
@@ -36,30 +37,34 @@ double value(const Demand& demand, const WeightConstraint& constraint, const Ver
 
 class WeightFinder {
  public:
-  WeightFinder(const Demand& demand, LpSolver& solver, const WeightOptions& options)
-      : demand_(demand), solver_(solver), options_(options), regions_(demand, solver, options) {}
+  WeightFinder(const Demand& demand, LpSolver& solver, const WeightOptions& options, ConvexSolver* convex)
+      : demand_(demand), solver_(solver), options_(options), regions_(demand, solver, options, convex) {}
 
   WeightReport run() {
     if (options_.goal == WeightGoal::margin) measure_components();
-    double asked = std::min(options_.margin, demand_.has_duals() ? small_margin_ : small_margin_ / 2);
+    double asked = std::min(options_.margin, demand_.is_stretchable() ? small_margin_ : small_margin_ / 2);
     if (options_.goal == WeightGoal::elastic) {
       violate_least(asked);
       return report(asked);
     }
-    if (refuted_by_a_ring(asked)) return report(asked);
+    if (!is_least() && refuted_by_a_ring(asked)) return report(asked);
     for (int round = 0; round < kHalvings && asked > kNoMargin; ++round) {
       regions_.attempt(asked, asked);
       if (regions_.failures() == 0) break;
       note_bound(asked);
-      asked = bound_->best.margin / 2;
+      if (is_least() && bound_->best.margin <= kNoMargin) break;
+      asked = std::min(bound_->best.margin / 2, is_least() ? asked / kLessMargin : kUnbounded);
     }
     return report(asked);
   }
 
  private:
-  /// The margin that is refuted when no weights satisfy the constraints.
-  [[nodiscard]] double refuted_margin() const {
-    return demand_.refuted_margin(std::clamp(options_.margin, kLeastRefutedDual, kRefutedDual));
+  [[nodiscard]] bool is_least() const { return options_.goal == WeightGoal::least; }
+
+  /// The certificate of a bound that rules out all weights.
+  [[nodiscard]] Certificate refute_all(const Bound& bound) const {
+    const double duals = std::clamp(options_.margin, kLeastRefutedDual, kRefutedDual);
+    return certify_bound(bound, refuted_margin(demand_, bound, duals));
   }
 
   /// The best margins of components that fit into one program.
@@ -84,7 +89,7 @@ class WeightFinder {
         if (bound.best.status != LpStatus::optimal || !regions_.is_hopeless(bound.best.margin)) continue;
         if (!bound_ || bound.best.margin < bound_->best.margin) bound_ = std::move(bound);
         // No best margin of dual lengths is less than zero: the first proof is as good as any.
-        if (demand_.has_duals() && proves(*bound_)) return true;
+        if (demand_.is_stretchable() && proves(*bound_)) return true;
       }
     }
     return bound_ && proves(*bound_);
@@ -93,9 +98,10 @@ class WeightFinder {
   /// Keeps the certificate of a ring's bound, if there is one.
   bool proves(const Bound& bound) {
     bound_is_exact_ = false;
-    refuted_ = certify_bound(bound, refuted_margin());
-    if (refuted_->terms.empty()) refuted_.reset();
-    return refuted_.has_value();
+    refuted_ = refute_all(bound);
+    refutes_all_ = !refuted_->terms.empty();
+    if (!refutes_all_) refuted_.reset();
+    return refutes_all_;
   }
 
   /// Keeps the least bound, and its verdict on the first requested margin.
@@ -103,12 +109,16 @@ class WeightFinder {
     for (RegionResult& result : regions_.results()) {
       if (result.change) continue;
       if (result.bound.best.status != LpStatus::optimal) result.bound.best.margin = 0;
-      bound_is_exact_ = bound_is_exact_ && !result.region.has_rim;
+      bound_is_exact_ = bound_is_exact_ && !result.region.has_rim && !is_least();
       if (bound_ && bound_->best.margin <= result.bound.best.margin) continue;
       bound_ = result.bound;
     }
-    if (bound_->best.margin >= asked) bound_->best.margin = 0;  // the solver contradicts itself: nothing is known
-    if (!refuted_) refuted_ = certify_bound(*bound_, bound_->best.margin < kNoMargin ? refuted_margin() : asked);
+    // The solver contradicts itself: nothing is known. For least weights the bound is of the conflict alone.
+    if (bound_->best.margin >= asked && !is_least()) bound_->best.margin = 0;
+    const bool none = bound_->best.margin < kNoMargin;
+    if (refuted_ && (!none || refutes_all_ || !is_least())) return;
+    refutes_all_ = none;
+    refuted_ = refutes_all_ ? refute_all(*bound_) : certify_bound(*bound_, asked);
   }
 
   [[nodiscard]] Certificate certify_bound(const Bound& bound, double margin) const {
@@ -146,7 +156,7 @@ class WeightFinder {
     const bool found = all_good && asked > kNoMargin && regions_.failures() == 0;
     judge_margin(r, found);
     judge(r, found);
-    if (options_.goal == WeightGoal::elastic) add_violations(r);
+    if (options_.goal == WeightGoal::elastic || (is_least() && !r.solved)) add_violations(r);
     return r;
   }
 
@@ -164,7 +174,7 @@ class WeightFinder {
                     [&](const Region& component) { return component.cells.size() <= options_.whole; });
     if (all_measured) {
       r.margin = small_margin_;
-      r.margin_kind = demand_.has_duals() && small_margin_ > kNoMargin ? MarginKind::at_least : MarginKind::exact;
+      r.margin_kind = demand_.is_stretchable() && small_margin_ > kNoMargin ? MarginKind::at_least : MarginKind::exact;
     } else if (bound_) {
       r.margin = std::min(bound_->best.margin, small_margin_);
       r.margin_kind = bound_is_exact_ ? MarginKind::exact : MarginKind::at_most;
@@ -178,15 +188,18 @@ class WeightFinder {
   }
 
   void judge(WeightReport& r, bool found) const {
+    bool refutes_all = refutes_all_;
     if (refuted_) {
       r.certificate = *refuted_;
     } else if (worst_component_ && small_margin_ <= kNoMargin) {
-      r.certificate = certify_bound(*worst_component_, refuted_margin());
+      r.certificate = refute_all(*worst_component_);
+      refutes_all = true;
     }
-    const bool refuted = !r.certificate.terms.empty() && r.certificate.margin == refuted_margin();
+    const bool refuted = refutes_all && !r.certificate.terms.empty();
     r.verdict = refuted ? Feasibility::infeasible : found ? Feasibility::feasible : Feasibility::undecided;
     switch (options_.goal) {
       case WeightGoal::margin:
+      case WeightGoal::least:
         r.solved = r.verdict == Feasibility::feasible;
         break;
       case WeightGoal::change:
@@ -203,8 +216,8 @@ class WeightFinder {
 
   void add_violations(WeightReport& r) const {
     for (const WeightConstraint& c : demand_.constraints_of(all_cells(demand_))) {
-      const double got = value(demand_, c, r.weights);
-      if (got < r.asked - kKept) r.violations.push_back({c, got, r.asked - got, demand_.angle_deg(c)});
+      const double got = value(demand_, c, r.weights), asked = demand_.has_margin(c) ? r.asked : 0;
+      if (got < asked - kKept) r.violations.push_back({c, got, asked - got, demand_.angle_deg(c)});
     }
     std::stable_sort(r.violations.begin(), r.violations.end(),
                      [](const Violation& a, const Violation& b) { return a.shortfall > b.shortfall; });
@@ -220,6 +233,7 @@ class WeightFinder {
   std::optional<Bound> bound_;  ///< the least
   bool bound_is_exact_ = true;
   std::optional<Certificate> refuted_;
+  bool refutes_all_ = false;  ///< `refuted_` is about all weights, not about a margin
 };
 
 }  // namespace
@@ -240,13 +254,13 @@ double weight_change(const Mesh& mesh, const VertexWeights& from, const VertexWe
 }
 
 WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOptions& options, ConvexSolver* convex) {
-  if (!is_convex(options.goal)) return WeightFinder(demand, solver, options).run();
+  if (!is_convex(options.goal)) return WeightFinder(demand, solver, options, convex).run();
   if (std::optional<WeightReport> best = best_weights(demand, *convex, options, options.margin))
     return *std::move(best);
   // The linear programs say if there are weights at all, and which margin they can have.
   WeightOptions any = options;
   any.goal = WeightGoal::margin;
-  WeightReport report = WeightFinder(demand, solver, any).run();
+  WeightReport report = WeightFinder(demand, solver, any, nullptr).run();
   report.solved = false;
   const bool may_have_less = options.goal == WeightGoal::accuracy && report.asked < options.margin;
   if (report.verdict != Feasibility::feasible || !may_have_less) return report;
@@ -259,8 +273,9 @@ WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOp
 }
 
 std::optional<InputError> expect_goal(const WeightOptions& options, const ConvexSolver* convex) {
-  if (is_convex(options.goal) && convex == nullptr)
-    return InputError{ErrorCode::invalid_option, "", "goal: center and accuracy need a solver of convex programs"};
+  if ((is_convex(options.goal) || options.goal == WeightGoal::least) && convex == nullptr)
+    return InputError{ErrorCode::invalid_option, "",
+                      "goal: center, accuracy and least need a solver of convex programs"};
   if (!(options.offset_factor >= 0 && options.boundary_offset_factor >= 0 &&
         options.offset_factor + options.boundary_offset_factor < kUnbounded)) {
     return InputError{ErrorCode::invalid_option, "",

@@ -182,7 +182,7 @@ namespace {
 BestMargin best_of(const Demand& demand, std::span<const CellId> cells, LpSolver& solver) {
   Bound bound = bound_margin(demand, cells, solver);
   if (bound.best.status == LpStatus::optimal && bound.best.margin < kNoMargin) {
-    bound.best.certificate = certify(demand, bound, demand.refuted_margin(kRefutedDual));
+    bound.best.certificate = certify(demand, bound, refuted_margin(demand, bound, kRefutedDual));
   }
   return std::move(bound.best);
 }

@@ -85,6 +85,24 @@ std::vector<CellId> ring_of(const Demand& demand, CellId cell) {
   return cells;
 }
 
+std::vector<CellId> cells_of(const Demand& demand, std::span<const WeightConstraint> constraints) {
+  std::vector<CellId> found, around;
+  std::vector<VertexId> corners;
+  for (const auto& [kind, p, q, r, s, t] : constraints) {
+    around.clear();
+    demand.add_cells_around(p, around);
+    for (const CellId cell : around) {
+      corners.clear();
+      demand.add_corners(cell, corners);
+      const auto has = [&](VertexId v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); };
+      const bool in_face = kind != WeightConstraint::Kind::dual_of_face || has(r);
+      if (has(q) && in_face && (!r.valid() || has(r) || has(s))) found.push_back(cell);
+    }
+  }
+  sort_unique(found);
+  return found;
+}
+
 std::vector<Region> components_of(const Demand& demand) {
   return regions_of(demand, VertexMask(demand.n_vertices(), 1));
 }

@@ -35,6 +35,9 @@ void grow(const Demand& demand, VertexMask& mask, std::vector<VertexId> front, i
 /// The cells that touch a cell, and this itself; sorted.
 [[nodiscard]] std::vector<CellId> ring_of(const Demand& demand, CellId cell);
 
+/// The cells of constraints: those that have p, q and another vertex of theirs; sorted.
+[[nodiscard]] std::vector<CellId> cells_of(const Demand& demand, std::span<const WeightConstraint> constraints);
+
 /// The connected components of the mesh: regions without rim.
 [[nodiscard]] std::vector<Region> components_of(const Demand& demand);
 

@@ -55,25 +55,41 @@ std::optional<RegionResult> RegionSolver::take_result(const Region& region) {
   return std::nullopt;
 }
 
+RegionChange RegionSolver::change_of(const Region& region, double asked) const {
+  if (options_.goal == WeightGoal::least) return least_squares(problem(asked), region, *convex_);
+  return least_change(problem(asked), region, solver_);
+}
+
+/// The linear program of a large region is slow. The convex one has found where the conflict is.
+Bound RegionSolver::bound_without(const Region& region, const RegionChange& change) const {
+  if (options_.goal != WeightGoal::least) return bound_of(region.cells);
+  const std::vector<CellId> cells = cells_of(demand_, change.conflict);
+  return cells.empty() ? Bound() : bound_of(cells);
+}
+
 /// Nothing: the region must grow.
 std::optional<RegionResult> RegionSolver::solve(Region& region, double asked, double floor) {
-  RegionChange change = least_change(problem(asked), region, solver_);
+  RegionChange change = change_of(region, asked);
   if (change.status != LpStatus::optimal && floor < asked)
     change = least_violation(problem(asked, floor), region, solver_);
   if (change.status == LpStatus::optimal) return RegionResult{std::move(region), std::move(change), {}};
-  Bound bound = bound_of(region.cells);
-  const bool below = demand_.has_duals() ? is_hopeless(bound.best.margin) : bound.best.margin < floor;
+  Bound bound = bound_without(region, change);
+  // Only a best margin of all constraints alike, and an exact one, rules out smaller margins than itself.
+  const bool by_sign = demand_.has_duals() && (demand_.constraints() != Constraints::distances || !is_plane());
+  const bool below = by_sign ? is_hopeless(bound.best.margin) : bound.best.margin < floor;
   const bool proof = bound.best.status == LpStatus::optimal && below;
   if (!proof && region.has_rim) return std::nullopt;
-  return RegionResult{std::move(region), std::nullopt, std::move(bound)};
+  RegionResult result{std::move(region), std::nullopt, std::move(bound)};
+  if (options_.goal == WeightGoal::least) result.elastic = least_squares(problem(asked), result.region, *convex_, true);
+  return result;
 }
 
 VertexWeights RegionSolver::changed_weights() const {
   VertexWeights weights = start_;
   for (const RegionResult& result : results_) {
-    if (!result.change) continue;
-    for (std::size_t i = 0; i < result.region.free.size(); ++i) {
-      const double change = result.change->change[i];
+    const RegionChange& found = result.change ? *result.change : result.elastic;
+    for (std::size_t i = 0; i < found.change.size(); ++i) {
+      const double change = found.change[i];
       double& w = weights[result.region.free[i]];
       if (change != 0) w = changed_weight(demand_.space(), w, change);
     }

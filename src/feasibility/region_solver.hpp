@@ -18,14 +18,17 @@ namespace temper {
 struct RegionResult {
   Region region;
   std::optional<RegionChange> change;
-  Bound bound;  ///< without change
+  Bound bound;                ///< without change
+  RegionChange elastic = {};  ///< without change, for WeightGoal::least: what violates least
 };
 
 class RegionSolver {
  public:
-  RegionSolver(const Demand& demand, LpSolver& solver, const WeightOptions& options)
+  /// `convex` is for WeightGoal::least alone.
+  RegionSolver(const Demand& demand, LpSolver& solver, const WeightOptions& options, ConvexSolver* convex)
       : demand_(demand),
         solver_(solver),
+        convex_(convex),
         options_(options),
         start_(options.from_input ? demand.weights() : VertexWeights(demand.n_vertices(), 0.0)),
         components_(components_of(demand)) {}
@@ -46,12 +49,12 @@ class RegionSolver {
     return {demand_, start_, asked, floor};
   }
   /// A best margin that rules out all weights. Dual lengths are all zero for w = |x|², so their best margin is never
-  /// below zero.
+  /// below zero, unless heights count, too.
   [[nodiscard]] bool is_hopeless(double margin) const {
     return margin <= (demand_.has_duals() ? kNoMargin : -kNoMargin);
   }
   [[nodiscard]] bool is_bad(CellId cell, double asked) const {
-    return demand_.margin_of(cell, start_) < asked || !demand_.is_kept(cell, start_);
+    return (!demand_.allows_zero() && demand_.margin_of(cell, start_) < asked) || !demand_.is_kept(cell, start_);
   }
 
   /// Solves all regions for a margin. With `floor` below `asked`, a region that cannot have the margin `asked` violates
@@ -61,12 +64,18 @@ class RegionSolver {
   [[nodiscard]] VertexWeights changed_weights() const;
 
  private:
+  [[nodiscard]] bool is_plane() const { return demand_.space().is_plane(); }
   [[nodiscard]] VertexMask first_mask(double asked) const;
+  /// The best change of a region by the goal.
+  [[nodiscard]] RegionChange change_of(const Region& region, double asked) const;
+  /// A bound of the margin that a region without this change can have.
+  [[nodiscard]] Bound bound_without(const Region& region, const RegionChange& change) const;
   std::optional<RegionResult> take_result(const Region& region);
   std::optional<RegionResult> solve(Region& region, double asked, double floor);
 
   const Demand& demand_;
   LpSolver& solver_;
+  ConvexSolver* convex_;
   const WeightOptions& options_;
   VertexWeights start_;
   std::vector<Region> components_;

@@ -47,7 +47,8 @@ constexpr double kShortStep = 1e-4;
 constexpr int kMostShortSteps = 12;
 // The largest y/s over the entries of Q, when the slope is made zero.
 constexpr double kLargestRatio = 1e6;
-// The search ends if y proves that the objective exceeds this multiple of its first value.
+// The search ends if y proves that the objective exceeds this multiple of its first value, or of the squares of what
+// rows lack if that value is zero.
 constexpr double kHopeless = 1e6;
 // An objective as small as the rounding of squares of order one.
 constexpr double kZero = 1e-24;
@@ -194,6 +195,7 @@ class InteriorPoint {
       if (step() < kShortStep) ++short_steps;
     }
     result.solved = !result.primal.empty();
+    if (!result.solved) result.dual.assign(y_.data(), y_.data() + y_.size());
     return result;
   }
 
@@ -202,11 +204,16 @@ class InteriorPoint {
     Vector x, s, y;
   };
 
-  /// The squares at the start, for each slack.
-  [[nodiscard]] double first_barrier() const {
-    double sum = 0;
+  /// The squares at the start, or if they are zero the squares of what rows lack.
+  [[nodiscard]] double first_squares() const {
+    double sum = 0, lacking = 0;
     for (const double c : p_.square_constants) sum += 0.5 * c * c;
-    return std::max(sum, kTiny) / static_cast<double>(p_.rows.size());
+    for (const double c : p_.constants) lacking += 0.5 * std::min(c, 0.0) * std::min(c, 0.0);
+    return sum > 0 ? sum : lacking / static_cast<double>(std::max<std::size_t>(p_.squares.size(), 1));
+  }
+  /// The part of them for each slack.
+  [[nodiscard]] double first_barrier() const {
+    return std::max(first_squares(), kTiny) / static_cast<double>(p_.rows.size());
   }
 
   void measure() {
@@ -223,6 +230,7 @@ class InteriorPoint {
     for (std::size_t i = 0; i < p_.squares.size(); ++i) add(p_.squares, i, squares[static_cast<Index>(i)]);
     for (std::size_t i = 0; i < p_.rows.size(); ++i) add(p_.rows, i, -y_[static_cast<Index>(i)]);
     objective_ = 0.5 * squares.squaredNorm();
+    if (!p_.cost.empty()) objective_ += to_vector(p_.cost).dot(x_);
     lacking_ = times(p_.rows, x_) + to_vector(p_.constants) - s_;
     sizes_ = Vector::Ones(s_.size());
     for (std::size_t i = 0; i < p_.rows.size(); ++i) {
@@ -232,9 +240,11 @@ class InteriorPoint {
     }
   }
 
-  /// If y proves that the objective is this much greater than at the start, there is most likely no x with s ≥ 0.
+  /// If y proves that the objective is this much greater than at the start, there is most likely no x with s ≥ 0. With
+  /// a cost, its unit says nothing about that.
   [[nodiscard]] bool is_hopeless() {
-    if (first_objective_ < 0) first_objective_ = objective_;
+    if (!p_.cost.empty()) return false;
+    if (first_objective_ < 0) first_objective_ = objective_ > 0 ? objective_ : first_squares();
     return p_.barrier == 0 && objective_ - y_.dot(s_ + lacking_) > kHopeless * first_objective_;
   }
 

@@ -44,7 +44,8 @@ struct ConvexProblem {
 struct ConvexSolution {
   bool solved = false;         ///< Else the solver gave up: there may be no x with positive slacks
   std::vector<double> primal;  ///< Values of x
-  std::vector<double> dual;    ///< One multiplier ≥ 0 per row: (squares)ᵀ (squares x + …) + cost = (rows)ᵀ dual
+  std::vector<double> dual;  ///< One multiplier ≥ 0 per row: (squares)ᵀ (squares x + …) + cost = (rows)ᵀ dual. If
+                             ///< not solved, the last ones: the largest belong to rows that contradict each other
   std::size_t iterations = 0;
 };
 

@@ -5,12 +5,19 @@
 //   well_centered              height of the orthocenter of each tetrahedron over each face ≥ tℓ
 //   completely_well_centered   the same; height of the orthocenter of each face over each edge ≥ tℓ; tℓ ≤ d ≤ (1 − t)ℓ
 //   regular                    dual length of each interior face ≥ tℓ
+//   coefficients               the same, or as small as it was; height ≥ 0 of orthocenters over the boundary and over
+//                              both sides of interfaces between regions. Within these faces, at each edge pq with pqr
+//                              and qps: c h_r + h_s ≥ 0 and h_r + c h_s ≥ 0 if their normals are at most 5.07° apart
+//                              (c² = cos² ≥ 127/128). At other edges each h ≥ 0
+//   distances                  dual length of each interior face ≥ tℓ, and all these heights over faces ≥ tℓ
 //
 // The polynomials N_c and M_c of certificates are linear in the weights:
 //
 //   height_over_face   N = n · Σ λ_v n_v = 4 h_s A V,       M = 4 ℓ A V
 //   height, crossing   as in the plane, M with twice the area of the face for S
 //   dual_of_face       N = the power determinant of pqrs and t = (h_s + h_t) V U / A, M = ℓ V U / A
+//   dual               N as for height_over_face = 2 (c h_r + h_s) S² T / ℓ, with S and T twice the areas of pqr and
+//   qps
 //
 // Here λ_v = |v − p|² − w_v + w_p, A is the area of the face pqr, and V and U are six times the volumes of pqrs and
 // prqt. n = (q − p) × (r − p), and n_q = (r − p) × (s − p), n_r = (s − p) × (q − p), n_s = n. M is a double.
@@ -23,7 +30,7 @@
 
 namespace temper::tets {
 
-/// Rows for well_centered, completely_well_centered and regular.
+/// Rows for all but heights_only.
 [[nodiscard]] std::span<const ConstraintsInfo> constraints_table();
 
 /// The margin of the mesh's own weights, in doubles: the least of the ratios that the constraints have.
@@ -38,7 +45,7 @@ namespace temper::tets {
 /// differ by at most:
 ///   - completely_well_centered: ℓ²
 ///   - well_centered: the greatest of ℓ², ||r − p|² − |r − q|²| and ||s − p|² − |s − q|²|
-///   - regular: kWeightReach ℓ², an assumption
+///   - regular, coefficients, distances: kWeightReach ℓ², an assumption
 [[nodiscard]] CertificateCheck check_certificate(const TetMesh& mesh, const Certificate& certificate);
 
 }  // namespace temper::tets

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -24,7 +25,7 @@ constexpr double kLeastCoordinate = 0x1p-75;
 // A product of M, a margin and a multiplier has 600 + 53 + 20 + 53 + 250 + 53 = 1029 bits. The margin of a smaller M
 // counts as 0, which is weaker.
 constexpr double kLeastM = 0x1p-600;
-constexpr std::array<int, 5> kDegrees = {4, 2, 0, 6, 5};
+constexpr std::array<int, 5> kDegrees = {4, 2, 6, 6, 5};
 
 bool counts(Constraints constraints, Kind kind) {
   switch (constraints) {
@@ -34,10 +35,23 @@ bool counts(Constraints constraints, Kind kind) {
       return kind == Kind::height_over_face || kind == Kind::height || kind == Kind::crossing;
     case Constraints::regular:
       return kind == Kind::dual_of_face;
+    case Constraints::coefficients:
+      return kind != Kind::crossing;
+    case Constraints::distances:
+      return kind == Kind::dual_of_face || kind == Kind::height_over_face;
     case Constraints::heights_only:
       return false;
   }
   return false;
+}
+
+Vec3 place_of(const TetMesh& mesh, const Scale& scale, VertexId v) {
+  const Vec3 p = mesh.position(v);
+  return {scale.coordinate(p.x), scale.coordinate(p.y), scale.coordinate(p.z)};
+}
+Vector3 vector_between(const TetMesh& mesh, const Scale& scale, VertexId a, VertexId b) {
+  const Vec3 p = place_of(mesh, scale, a), q = place_of(mesh, scale, b);
+  return {Number::difference(q.x, p.x), Number::difference(q.y, p.y), Number::difference(q.z, p.z)};
 }
 
 /// The edges, faces and tetrahedra of the mesh between some vertices.
@@ -103,9 +117,69 @@ bool is_of(const Parts& parts, const WeightConstraint& c) {
   return false;
 }
 
+/// The faces of the surface and of interfaces between regions, and their edges.
+class Surface {
+ public:
+  Surface(const TetMesh& mesh, const Scale& scale) : mesh_(mesh), scale_(scale) {
+    for (const HalffaceId h : mesh.halffaces()) {
+      if (!mesh.bounds_region(h) || !mesh.is_face_representative(h)) continue;
+      const auto [a, b, c] = mesh.vertices(h);
+      thirds_[sorted(a, b)].push_back(c);
+      thirds_[sorted(b, c)].push_back(a);
+      thirds_[sorted(c, a)].push_back(b);
+    }
+  }
+  /// Says whether the constraint of coefficients or distances is one of the surface, if it is about it.
+  [[nodiscard]] bool has(const WeightConstraint& c) const {
+    if (c.kind == Kind::dual_of_face) return true;
+    const auto at = thirds_.find(sorted(c.p, c.q));
+    if (at == thirds_.end()) return false;
+    const std::vector<VertexId>& thirds = at->second;
+    const bool has_r = std::find(thirds.begin(), thirds.end(), c.r) != thirds.end();
+    if (c.kind == Kind::height_over_face) return has_r;
+    const bool flat = thirds.size() == 2 && are_flat(c.p, c.q, thirds[0], thirds[1]);
+    if (c.kind == Kind::height) return has_r && !flat && !c.s.valid() && !c.t.valid();
+    return has_r && flat && c.s != c.r && (c.s == thirds[0] || c.s == thirds[1]) && !c.t.valid();
+  }
+
+ private:
+  static std::array<VertexId, 2> sorted(VertexId a, VertexId b) { return {std::min(a, b), std::max(a, b)}; }
+
+  /// kFlatCosineSquared, by exact numbers.
+  [[nodiscard]] bool are_flat(VertexId p, VertexId q, VertexId r, VertexId s) const {
+    constexpr double kCosineSquared = 127.0 / 128;
+    const Vector3 pq = vector_between(mesh_, scale_, p, q);
+    const Vector3 up = cross(pq, vector_between(mesh_, scale_, p, r)),
+                  down = cross(vector_between(mesh_, scale_, p, s), pq);
+    const Number both = dot(up, down);
+    return both.sign() == Sign::positive &&
+           (both * both - Number(kCosineSquared) * (dot(up, up) * dot(down, down))).sign() != Sign::negative;
+  }
+
+  const TetMesh& mesh_;
+  const Scale& scale_;
+  std::map<std::array<VertexId, 2>, std::vector<VertexId>> thirds_;  ///< the third corners of the faces at each edge
+};
+
+/// Says whether the terms are constraints of the mesh.
+bool are_of(const TetMesh& mesh, const Certificate& certificate, const Scale& scale) {
+  const Parts parts(mesh, certificate);
+  const auto is_one = [&](const auto& term) {
+    const WeightConstraint& c = term.constraint;
+    return counts(certificate.constraints, c.kind) && (c.kind == Kind::dual || is_of(parts, c));
+  };
+  if (!std::all_of(certificate.terms.begin(), certificate.terms.end(), is_one)) return false;
+  if (!assumes_reach(certificate.constraints) || certificate.constraints == Constraints::regular) return true;
+  const Surface surface(mesh, scale);
+  return std::all_of(certificate.terms.begin(), certificate.terms.end(),
+                     [&](const auto& term) { return surface.has(term.constraint); });
+}
+
 /// The terms of the sum.
 class TetTerms : public WeightDifferences {
  public:
+  static constexpr Kind kInnerDual = Kind::dual_of_face;
+
   TetTerms(const TetMesh& mesh, const Scale& scale, Constraints constraints)
       : mesh_(mesh), scale_(scale), constraints_(constraints) {}
 
@@ -113,9 +187,9 @@ class TetTerms : public WeightDifferences {
     const Vector3 q = from_to(c.p, c.q);
     if (c.kind == Kind::crossing) return polynomial_of_crossing(q, margin);
     const Vector3 r = from_to(c.p, c.r);
-    Polynomial n = c.kind == Kind::height             ? polynomial_of_height(q, r, from_to(c.q, c.r))
-                   : c.kind == Kind::height_over_face ? height_over_face(q, r, from_to(c.p, c.s))
-                                                      : dual_of_face(q, r, from_to(c.p, c.s), from_to(c.p, c.t));
+    Polynomial n = c.kind == Kind::height         ? polynomial_of_height(q, r, from_to(c.q, c.r))
+                   : c.kind == Kind::dual_of_face ? dual_of_face(q, r, from_to(c.p, c.s), from_to(c.p, c.t))
+                                                  : height_over_face(q, r, from_to(c.p, c.s));
     const double m = margin == 0 ? 0 : m_of(c);
     if (m >= kLeastM) n.constant += -(Number(margin) * Number(m));
     return n;
@@ -124,7 +198,7 @@ class TetTerms : public WeightDifferences {
   /// is linear in the orthocenter, and so greatest at a corner.
   [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, std::span<const VertexId> others) const {
     Number most = squared_distance(a, b);
-    if (constraints_ == Constraints::regular) return Number(kWeightReach) * most;
+    if (assumes_reach(constraints_)) return Number(kWeightReach) * most;
     if (constraints_ == Constraints::completely_well_centered) return most;
     for (const VertexId v : others) {
       Number across = abs(squared_distance(a, v) - squared_distance(b, v));
@@ -161,14 +235,8 @@ class TetTerms : public WeightDifferences {
     if (c.kind == Kind::height_over_face) return 2 * side * twice_area * volumes;
     return 2 * side * volumes * std::abs(temper::dot(n, at(c.t) - p)) / twice_area;
   }
-  [[nodiscard]] Vec3 at(VertexId v) const {
-    const Vec3 p = mesh_.position(v);
-    return {scale_.coordinate(p.x), scale_.coordinate(p.y), scale_.coordinate(p.z)};
-  }
-  [[nodiscard]] Vector3 from_to(VertexId a, VertexId b) const {
-    const Vec3 p = at(a), q = at(b);
-    return {Number::difference(q.x, p.x), Number::difference(q.y, p.y), Number::difference(q.z, p.z)};
-  }
+  [[nodiscard]] Vec3 at(VertexId v) const { return place_of(mesh_, scale_, v); }
+  [[nodiscard]] Vector3 from_to(VertexId a, VertexId b) const { return vector_between(mesh_, scale_, a, b); }
   [[nodiscard]] Number squared_distance(VertexId a, VertexId b) const {
     const Vector3 edge = from_to(a, b);
     return dot(edge, edge);
@@ -183,12 +251,9 @@ class TetTerms : public WeightDifferences {
 
 CertificateCheck check_certificate(const TetMesh& mesh, const Certificate& certificate) {
   if (!has_good_multipliers(certificate)) return CertificateCheck::bad_multiplier;
-  const Parts parts(mesh, certificate);
-  for (const auto& term : certificate.terms) {
-    if (!counts(certificate.constraints, term.constraint.kind) || !is_of(parts, term.constraint))
-      return CertificateCheck::not_of_this_mesh;
-  }
-  const Scale scale = scale_of(certificate, kDegrees, kLeastCoordinate, [&](VertexId v) { return mesh.position(v); });
+  const auto position = [&](VertexId v) { return v.index < mesh.n_vertices() ? mesh.position(v) : Vec3{}; };
+  const Scale scale = scale_of(certificate, kDegrees, kLeastCoordinate, position);
+  if (!are_of(mesh, certificate, scale)) return CertificateCheck::not_of_this_mesh;
   return check_sum(TetTerms(mesh, scale, certificate.constraints), certificate, scale);
 }
 

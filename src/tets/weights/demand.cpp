@@ -17,13 +17,14 @@ using Kind = WeightConstraint::Kind;
 }  // namespace
 
 TetDemand::TetDemand(const TetMesh& mesh, Constraints constraints)
-    : Demand(Space(), constraints, constraints == Constraints::completely_well_centered),
+    : Demand(Space(), constraints, constraints == Constraints::completely_well_centered, Kind::dual_of_face),
       mesh_(mesh),
       star_start_(mesh.n_vertices() + 1, 0),
       star_(4 * mesh.n_tetrahedra()) {
   for (const TetId t : mesh.tetrahedra()) {
     for (const VertexId v : mesh.corners(t)) ++star_start_[v.index];
   }
+  if (allows_zero()) surface_ = SurfaceRows(mesh);
   std::uint32_t sum = 0;
   for (std::uint32_t& start : star_start_) sum += start, start = sum;
   for (const TetId t : mesh.tetrahedra()) {
@@ -43,6 +44,10 @@ void TetDemand::add_vertices_across(VertexId v, std::vector<VertexId>& vertices)
   for (const TetId t : star(v)) {
     const HalffaceId outer = mesh_.halfface_opposite(t, v);
     if (!mesh_.is_boundary(outer)) vertices.push_back(mesh_.opposite(mesh_.twin(outer)));
+    for (const std::uint32_t row : surface_.of(t)) {
+      const auto& [kind, p, q, r, s, unused] = surface_.constraint(row);
+      if (kind == Kind::dual && (v == r || v == s)) vertices.push_back(v == r ? s : r);
+    }
   }
 }
 
@@ -84,7 +89,9 @@ std::vector<WeightConstraint> TetDemand::constraints_of(std::span<const CellId> 
     return !mesh_.is_boundary(h) &&
            std::binary_search(cells.begin(), cells.end(), CellId(TetMesh::tetrahedron(mesh_.twin(h)).index));
   };
-  if (has_heights()) for_each_side([&](HalffaceId h) { all.push_back(over_face(h)); });
+  for_each_side([&](HalffaceId h) {
+    if (has_heights() || (has_outer_heights() && mesh_.bounds_region(h))) all.push_back(over_face(h));
+  });
   if (has_crossings()) {
     for_each_side([&](HalffaceId h) {
       if (!mesh_.is_face_representative(h) && is_across(h)) return;
@@ -101,7 +108,21 @@ std::vector<WeightConstraint> TetDemand::constraints_of(std::span<const CellId> 
       if (both ? mesh_.is_face_representative(h) : rim) all.push_back(dual(h));
     });
   }
+  add_surface_rows(cells, rim, all);
   return all;
+}
+
+void TetDemand::add_surface_rows(std::span<const CellId> cells, bool rim, std::vector<WeightConstraint>& all) const {
+  std::vector<std::uint32_t> rows;
+  for (const CellId cell : cells) {
+    const auto of_cell = surface_.of(TetId(cell.index));
+    rows.insert(rows.end(), of_cell.begin(), of_cell.end());
+  }
+  sort_unique(rows);
+  const auto has = [&](TetId t) { return std::binary_search(cells.begin(), cells.end(), CellId(t.index)); };
+  for (const std::uint32_t row : rows) {
+    if (rim || surface_.has_all(mesh_, row, has)) all.push_back(surface_.constraint(row));
+  }
 }
 
 LinearForm TetDemand::form_over_face(VertexId p, VertexId q, VertexId r, VertexId s) const {
@@ -136,9 +157,23 @@ LinearForm TetDemand::dual_form(const WeightConstraint& c) const {
   return form;
 }
 
+LinearForm TetDemand::surface_form(const WeightConstraint& c) const {
+  const Vec3 p = mesh_.position(c.p), q = mesh_.position(c.q), r = mesh_.position(c.r), s = mesh_.position(c.s);
+  const Vec3 up = cross(q - p, r - p), down = cross(s - p, q - p);
+  const double cosine = dot(up, down) / (length(up) * length(down));
+  const LinearForm left = height_form(c, q - p, r - p, r - q, length(up));
+  const LinearForm right = height_form(c, p - q, s - q, s - p, length(down));
+  const auto& [a, b] = std::tie(left.coefficients, right.coefficients);
+  return {4,
+          {c.p, c.q, c.r, c.s},
+          {cosine * a[0] + b[1], cosine * a[1] + b[0], cosine * a[2], b[2]},
+          cosine * left.constant + right.constant};
+}
+
 LinearForm TetDemand::linear_form(const WeightConstraint& c) const {
   if (c.kind == Kind::height_over_face) return form_over_face(c.p, c.q, c.r, c.s);
   if (c.kind == Kind::dual_of_face) return dual_form(c);
+  if (c.kind == Kind::dual) return surface_form(c);
   const Vec3 pq = mesh_.position(c.q) - mesh_.position(c.p);
   if (c.kind == Kind::crossing) return crossing_form(c, pq);
   const Vec3 pr = mesh_.position(c.r) - mesh_.position(c.p);
@@ -151,6 +186,7 @@ double TetDemand::scale_of_polynomial(const WeightConstraint& c) const {
   const Vec3 n = cross(pq, mesh_.position(c.r) - p);
   const double twice_area = length(n);
   if (c.kind == Kind::height) return 2 * squared_length(pq) * twice_area;
+  if (c.kind == Kind::dual) return 2 * twice_area * twice_area * length(cross(pq, mesh_.position(c.s) - p));
   const double volumes = dot(n, mesh_.position(c.s) - p), side = length_of_area(0.5 * twice_area);
   if (c.kind == Kind::height_over_face) return 2 * side * twice_area * volumes;
   return -2 * side * volumes * dot(n, mesh_.position(c.t) - p) / twice_area;
@@ -165,6 +201,7 @@ bool TetDemand::is_kept(CellId cell, const VertexWeights& weights) const {
   const auto sign_of = [&](const WeightConstraint& c) {
     switch (c.kind) {
       case Kind::height_over_face:
+      case Kind::dual:  // the same polynomial
         return signed_height_sign(at(c.p), at(c.q), at(c.r), at(c.s));
       case Kind::dual_of_face:
         return -power_test(at(c.p), at(c.q), at(c.r), at(c.s), at(c.t));
@@ -175,13 +212,13 @@ bool TetDemand::is_kept(CellId cell, const VertexWeights& weights) const {
     }
   };
   const std::vector<WeightConstraint> all = constraints_of({&cell, 1}, true);
-  return std::all_of(all.begin(), all.end(), [&](const auto& c) { return sign_of(c) == Sign::positive; });
+  return std::all_of(all.begin(), all.end(), [&](const auto& c) { return is_good(sign_of(c)); });
 }
 
 double TetDemand::margin_of(CellId cell, const VertexWeights& weights) const {
   double margin = kUnbounded;
   for (const WeightConstraint& c : constraints_of({&cell, 1}, true))
-    margin = std::min(margin, value_of(linear_form(c), [&](VertexId v) { return weights[v]; }));
+    margin = std::min(margin, counted(c, value_of(linear_form(c), [&](VertexId v) { return weights[v]; })));
   return margin;
 }
 

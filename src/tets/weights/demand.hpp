@@ -7,6 +7,7 @@
 
 #include "feasibility/demand.hpp"
 #include "temper/tets/mesh.hpp"
+#include "tets/weights/surface.hpp"
 
 namespace temper::tets {
 
@@ -41,8 +42,12 @@ class TetDemand final : public Demand {
   [[nodiscard]] WeightConstraint dual(HalffaceId h) const;
   [[nodiscard]] LinearForm form_over_face(VertexId p, VertexId q, VertexId r, VertexId s) const;
   [[nodiscard]] LinearForm dual_form(const WeightConstraint& constraint) const;
+  /// Of an edge between two flat faces.
+  [[nodiscard]] LinearForm surface_form(const WeightConstraint& constraint) const;
+  void add_surface_rows(std::span<const CellId> cells, bool rim, std::vector<WeightConstraint>& all) const;
 
   const TetMesh& mesh_;
+  SurfaceRows surface_;                    ///< of coefficients
   std::vector<std::uint32_t> star_start_;  ///< of the tetrahedra around each vertex
   std::vector<TetId> star_;
 };

@@ -8,7 +8,7 @@
 namespace temper::tets {
 namespace {
 
-constexpr std::array<ConstraintsInfo, 3> kConditions = {{
+constexpr std::array<ConstraintsInfo, 5> kConditions = {{
     {Constraints::well_centered, "well_centered", "h >= t l over faces", "weights make every tetrahedron well-centered",
      "no weights make every tetrahedron well-centered"},
     {Constraints::completely_well_centered, "completely_well_centered",
@@ -17,6 +17,15 @@ constexpr std::array<ConstraintsInfo, 3> kConditions = {{
      "no weights make every tetrahedron completely well-centered"},
     {Constraints::regular, "regular", "dual length >= t l of faces", "weights make every face regular",
      "no weights make every face regular, if weights differ by less than 2^20 l^2 along edges"},
+    {Constraints::coefficients, "coefficients",
+     "dual length >= t l of faces inside, h >= 0 over the boundary, both sides of interfaces and, within them, edges",
+     "weights make no coefficient of an edge negative",
+     "no weights make all dual lengths of faces and all heights over and within the boundary positive or zero, if "
+     "weights differ by less than 2^20 l^2 along edges"},
+    {Constraints::distances, "distances",
+     "dual length >= t l of faces inside, h >= t l over the boundary and over both sides of interfaces",
+     "weights make all distances between centers positive",
+     "no weights make all distances between centers positive, if weights differ by less than 2^20 l^2 along edges"},
 }};
 
 }  // namespace

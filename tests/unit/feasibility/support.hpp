@@ -9,6 +9,7 @@
 #include "property/mesh_of_random_points.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
+#include "support/spheres.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/feasibility.hpp"
@@ -54,6 +55,32 @@ inline Mesh pinwheel(double turn = 0.1) {
   for (int k = 0; k < 3; ++k) points.push_back({4 * std::cos(k * third), 4 * std::sin(k * third)});
   for (int k = 0; k < 3; ++k) points.push_back({std::cos(k * third + turn), std::sin(k * third + turn)});
   return build_or_die(points, {{3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}});
+}
+
+inline bool is_upright(const Mesh& mesh, VertexId v) {
+  for (const HalfedgeId h : mesh.star(v)) {
+    if (orientation(mesh.space(), mesh.point(v), mesh.point(mesh.target(h)), mesh.point(mesh.opposite(h))) !=
+        Sign::positive) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Random globes are far from having good weights; subdivided icosahedra with vertices moved are on either side.
+inline Mesh jittered_globe(std::uint64_t seed, double jitter, int level = 1) {
+  Mesh mesh = *icosahedral({.level = level});
+  Rng rng(seed);
+  const double most = jitter * std::sqrt(squared_length(mesh.weighted_vector(mesh.origin(HalfedgeId(std::size_t{0}))) -
+                                                        mesh.weighted_vector(mesh.target(HalfedgeId(std::size_t{0})))));
+  for (const VertexId v : mesh.vertices()) {
+    const Vec3 move = {rng.uniform(-most, most), rng.uniform(-most, most), rng.uniform(-most, most)};
+    const Vec3 p = mesh.weighted_vector(v) + move;
+    const WeightedPoint was = mesh.point(v);
+    mesh.set_point(v, as_point((mesh.space().radius() / length(p)) * p));
+    if (!is_upright(mesh, v)) mesh.set_point(v, was);
+  }
+  return mesh;
 }
 
 /// Of a mesh of triangles or of tetrahedra.

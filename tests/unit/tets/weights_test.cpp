@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <vector>
 
 #include "base/rng.hpp"
 #include "support/tet_lattice.hpp"
@@ -13,6 +16,7 @@
 #include "temper/tets/quality.hpp"
 #include "tets/weights/demand.hpp"
 #include "unit/feasibility/support.hpp"
+#include "unit/tets/pinwheel_cone.hpp"
 
 namespace temper::tets {
 namespace {
@@ -36,28 +40,66 @@ TetMesh scaled(TetMesh mesh, double factor, Vec3 offset = {}) {
   return mesh;
 }
 
+/// Edges of the surface with the third corners of their faces, each found by looking at all tetrahedra.
+std::map<std::array<VertexId, 2>, std::vector<VertexId>> thirds_of(const TetMesh& mesh) {
+  std::map<std::array<VertexId, 2>, std::vector<VertexId>> thirds;
+  for (const HalffaceId h : mesh.halffaces()) {
+    if (!mesh.bounds_region(h) || !mesh.is_face_representative(h)) continue;
+    const auto [a, b, c] = mesh.vertices(h);
+    thirds[{std::min(a, b), std::max(a, b)}].push_back(c);
+    thirds[{std::min(b, c), std::max(b, c)}].push_back(a);
+    thirds[{std::min(c, a), std::max(c, a)}].push_back(b);
+  }
+  return thirds;
+}
+
+/// The angle between the normals of the faces at pq.
+double turn_of(const TetMesh& mesh, VertexId p, VertexId q, VertexId r, VertexId s) {
+  const Vec3 at = mesh.position(p), pq = mesh.position(q) - at;
+  const Vec3 up = cross(pq, mesh.position(r) - at), down = cross(mesh.position(s) - at, pq);
+  return std::atan2(length(cross(up, down)), dot(up, down));
+}
+
+constexpr double kFlat = 5.07 * std::numbers::pi / 180;
+
+/// Says by heights of orthocenters if weights keep coefficients or distances.
+bool keeps_outer(const TetMesh& mesh, Constraints constraints) {
+  double least = kUnbounded;
+  for (const HalffaceId h : mesh.halffaces()) {
+    const auto [p, q, r] = mesh.vertices(h);
+    const auto over = [&](VertexId s) {
+      return signed_height(mesh.point(p), mesh.point(q), mesh.point(r), mesh.point(s));
+    };
+    const double height = over(mesh.opposite(h));
+    if (mesh.bounds_region(h)) least = std::min(least, height);
+    if (!mesh.is_boundary(h))
+      least = std::min(least, height + signed_height(mesh.point(p), mesh.point(r), mesh.point(q),
+                                                     mesh.point(mesh.opposite(mesh.twin(h)))));
+  }
+  if (constraints == Constraints::distances) return least > 0;
+  for (const auto& [ends, thirds] : thirds_of(mesh)) {
+    const auto height = [&](VertexId r) {
+      return signed_height(mesh.point(ends[0]), mesh.point(ends[1]), mesh.point(r));
+    };
+    const bool flat = thirds.size() == 2 && turn_of(mesh, ends[0], ends[1], thirds[0], thirds[1]) < kFlat;
+    if (flat) least = std::min(least, height(thirds[0]) + height(thirds[1]));
+    for (const VertexId r : thirds) least = flat ? least : std::min(least, height(r));
+  }
+  return least > -1e-12;
+}
+
 /// Says by the report on the mesh if the constraints hold.
 bool keeps(const TetMesh& mesh, Constraints constraints) {
+  if (constraints == Constraints::coefficients || constraints == Constraints::distances)
+    return keeps_outer(mesh, constraints);
   const Quality q = quality(mesh);
   if (constraints == Constraints::well_centered) return q.orthocenters_outside == 0;
   if (constraints == Constraints::completely_well_centered) return q.completely_well_centered_fraction == 1;
   return q.non_regular_faces == 0 && std::isfinite(q.transmissibility_ratio);
 }
 
-/// Two nested triangles, the ring between them divided like a pinwheel, and an apex above all. No weights make the base
-/// regular, and so none the tetrahedra.
-TetMesh pinwheel_cone(double turn = 0.1) {
-  test::TetArrays a;
-  const double third = 2 * std::numbers::pi / 3;
-  for (int k = 0; k < 3; ++k) a.points.push_back({4 * std::cos(k * third), 4 * std::sin(k * third), 0});
-  for (int k = 0; k < 3; ++k) a.points.push_back({std::cos(k * third + turn), std::sin(k * third + turn), 0});
-  a.points.push_back({0.5, 0.25, 3});
-  a.tetrahedra = {{3, 4, 5, 6}, {0, 1, 4, 6}, {0, 4, 3, 6}, {1, 2, 5, 6}, {1, 5, 4, 6}, {2, 0, 3, 6}, {2, 3, 5, 6}};
-  return test::mesh_of(a);
-}
-
 TEST(TetDemand, HasTheFormsOfHeightsCrossingsAndDualLengths) {
-  const TetMesh mesh = test::mesh_of(test::shaken(test::cubes(2, test::kSixTets), 0.1, 0.2));
+  const TetMesh mesh = test::mesh_of(test::shaken(test::cubes(3, test::kSixTets), 0.02, 0.2));
   for (const ConstraintsInfo& row : constraints_table()) {
     const TetDemand demand(mesh, row.constraints);
     for (const WeightConstraint& c : demand.constraints_of(all_cells(demand), false)) {
@@ -65,7 +107,10 @@ TEST(TetDemand, HasTheFormsOfHeightsCrossingsAndDualLengths) {
       const double l = length(q.position() - p.position());
       double expected = dual_crossing(p, q) / l;
       if (c.kind == Kind::height) expected = signed_height(p, q, mesh.point(c.r)) / l;
-      if (c.s.valid()) {
+      if (c.kind == Kind::dual) {
+        const double turn = turn_of(mesh, c.p, c.q, c.r, c.s);
+        expected = (std::cos(turn) * signed_height(p, q, mesh.point(c.r)) + signed_height(q, p, mesh.point(c.s))) / l;
+      } else if (c.s.valid()) {
         const WeightedPoint r = mesh.point(c.r);
         const double area = 0.5 * length(cross(q.position() - p.position(), r.position() - p.position()));
         expected = signed_height(p, q, r, mesh.point(c.s));
@@ -105,6 +150,9 @@ TEST(TetDemand, CountsEachConstraintOnce) {
   EXPECT_EQ(count(Constraints::well_centered), 4 * q.tetrahedra);
   EXPECT_EQ(count(Constraints::completely_well_centered), 4 * q.tetrahedra + 3 * q.faces + 2 * q.edges);
   EXPECT_EQ(count(Constraints::regular), q.faces - q.boundary_faces);
+  EXPECT_EQ(count(Constraints::distances), q.faces);
+  // Each of the six sides of the cube has 3 · 3² − 2 · 3 edges inside, and each of its twelve edges has two faces.
+  EXPECT_EQ(count(Constraints::coefficients), q.faces + 6 * (27 - 6) + 12 * 3 * 2);
 }
 
 TEST(TetWeights, AreWhatWasAskedForOrProvedImpossible) {
@@ -122,7 +170,9 @@ TEST(TetWeights, AreWhatWasAskedForOrProvedImpossible) {
           EXPECT_EQ(report.solved, feasible);
           if (feasible) {
             EXPECT_TRUE(keeps(weighted, row.constraints)) << row.name << " " << seed;
-            EXPECT_GE(report.attained, report.asked - kLacking);
+            if (row.constraints != Constraints::coefficients) {  // there, a small one may stay as it is
+              EXPECT_GE(report.attained, report.asked - kLacking);
+            }
             EXPECT_NEAR(report.attained, weight_margin(weighted, row.constraints), 1e-12);
           } else {
             EXPECT_EQ(check_certificate(mesh, report.certificate), CertificateCheck::proves);
@@ -174,14 +224,15 @@ TEST(TetWeights, ElasticViolatesLeastAndSaysWhere) {
 
 TEST(TetWeights, ElasticMakesNothingBadIfWeightsExist) {
   for (const ConstraintsInfo& row : constraints_table()) {
-    if (row.constraints == Constraints::regular) continue;  // any margin that is attained can be stretched
+    // Any margin of dual lengths alone that is attained can be stretched.
+    if (row.constraints == Constraints::regular || row.constraints == Constraints::coefficients) continue;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       const TetMesh mesh = test::mesh_of(test::shaken(test::body_centered(2), 0.1, 0, seed));
       const double best =
           weights_of(mesh, {.goal = WeightGoal::margin, .margin = 1e-3, .constraints = row.constraints}).margin;
       ASSERT_GT(best, 0.01) << row.name << " " << seed;
-      const WeightReport report =
-          weights_of(mesh, {.goal = WeightGoal::elastic, .margin = 2 * best, .constraints = row.constraints});
+      const WeightReport report = weights_of(
+          mesh, {.goal = WeightGoal::elastic, .margin = std::min(2 * best, 0.45), .constraints = row.constraints});
       EXPECT_EQ(report.verdict, Feasibility::feasible) << row.name << " " << seed;
       EXPECT_GE(report.attained, best / 2 - kLacking) << row.name << " " << seed;
       EXPECT_FALSE(report.violations.empty());
