@@ -20,6 +20,9 @@ namespace {
 /// "12" of "triangle 12".
 std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
 
+std::string name_of(TriangleId t, const tets::InputNames& names) { return names.triangle(t.index); }
+std::string name_of(tets::TetId t, const tets::InputNames& names) { return names.tetrahedron(t.index); }
+
 std::vector<std::string> all_of(std::vector<std::string> some, const std::vector<std::string>& others) {
   some.insert(some.end(), others.begin(), others.end());
   return some;
@@ -54,13 +57,9 @@ template <class Subject>
 std::string InputOf<Subject>::vertex_number(VertexId v) const {
   return last_word(names->point(v.index));
 }
-template <>
-std::string Input::element_number(TriangleId t) const {
-  return last_word(names->triangle(t.index));
-}
-template <>
-std::string TetInput::element_number(tets::TetId t) const {
-  return last_word(names->tetrahedron(t.index));
+template <class Subject>
+std::string InputOf<Subject>::element_number(typename Subject::Element e) const {
+  return last_word(name_of(e, *names));
 }
 template <class Subject>
 std::string InputOf<Subject>::vertex_numbers(std::span<const VertexId> vertices, std::string_view between) const {
@@ -72,8 +71,9 @@ template <class Subject>
 std::vector<std::string> InputOf<Subject>::warnings() const {
   return all_of(file.warnings, loaded.warnings);
 }
-template struct InputOf<Triangles>;
-template struct InputOf<Tetrahedra>;
+#define TEMPER_MAKE(S) template struct InputOf<S>;
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
 
 namespace {
 
@@ -129,8 +129,9 @@ InputOf<Subject> read_like(const InputOf<Subject>& input, const std::string& pat
   throw Failure(Exit::bad_input,
                 fmt::format("{}: expected {}, as in {}, found {}", path, Subject::elements, input.path, name(found)));
 }
-template Input read_like(const Input& input, const std::string& path, const ReadingOptions& options);
-template TetInput read_like(const TetInput& input, const std::string& path, const ReadingOptions& options);
+#define TEMPER_MAKE(S) template InputOf<S> read_like(const InputOf<S>&, const std::string&, const ReadingOptions&);
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
 
 std::ifstream open_text(const std::string& path) {
   std::ifstream file(path_of(path), std::ios::binary);

@@ -42,7 +42,8 @@ void write_reports(const Command& command, const OptimizeSettings& s, const Inpu
                                      results.errors_json};
   if (!s.files.report.empty()) outputs.write_text(s.files.report, optimize_json(record));
   if (!s.files.page.empty())
-    outputs.write_text(s.files.page, optimize_html(RunPage{record, input, *results.original, *results.improved}));
+    outputs.write_text(s.files.page,
+                       optimize_html(RunPage<Subject>{record, input, *results.original, *results.improved}));
 }
 
 /// Writes the mesh first, as it took the most time.
