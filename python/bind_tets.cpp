@@ -156,7 +156,7 @@ py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const py::object
   tets::TetMesh mesh = loaded->mesh;
   Visitor visitor;
   tets::OptimizeHooks hooks = {observer_of(visitor, observer), executor.get()};
-  hooks.error = tets::discretization_error(options.scheme);
+  hooks.solvers = tets::solvers(options.scheme);
   const Run run(self.running);
   Expected<tets::OptimizeReport> report = aside([&] { return optimize(mesh, options, hooks); });
   const bool has_data = !self.file->point_data.empty() || !self.file->tetrahedra.data.empty();

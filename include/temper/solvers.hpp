@@ -19,7 +19,8 @@ namespace temper {
 
 namespace temper::tets {
 
-/// The model of the errors of a scheme by Eigen, for OptimizeHooks; null if the build or the scheme has none.
-[[nodiscard]] std::shared_ptr<const DiscretizationError> discretization_error(Scheme scheme);
+/// Clp, the convex programs of temper/detail/lp.hpp, and the model of the errors of a scheme by Eigen. Each is empty if
+/// the build lacks the library; the model is also if the scheme has none.
+[[nodiscard]] Solvers solvers(Scheme scheme);
 
 }  // namespace temper::tets

@@ -44,12 +44,13 @@ void describe_coefficients(const Dec& dec, const PointSystem& points, const IsBo
   }
   system.largest_over_median = largest_over_median(std::move(inside));
 }
-/// The residuals ★0 k² u − d0ᵀ ★1 d0 u of waves u with −Δu = k² u.
-template <class Dec>
-[[nodiscard]] std::vector<Lanes> vertex_residuals(const Dec& dec, double k2, const std::vector<Lanes>& u) {
+/// The residuals ★0 f − d0ᵀ ★1 d0 u of fields u with −Δu = f.
+template <class Dec, class Fields>
+[[nodiscard]] std::vector<Lanes> vertex_residuals(const Dec& dec, const Fields& fields, const std::vector<Lanes>& u) {
   std::vector<Lanes> residuals(u.size());
   for (std::size_t v = 0; v < u.size(); ++v) {
-    for (std::size_t i = 0; i < kLanes; ++i) residuals[v][i] = dec.star0[VertexId(v)] * k2 * u[v][i];
+    const Lanes f = fields.source(u[v]);
+    for (std::size_t i = 0; i < kLanes; ++i) residuals[v][i] = dec.star0[VertexId(v)] * f[i];
   }
   for (std::size_t e = 0; e < dec.edges.size(); ++e) {
     const auto [from, to] = std::pair(dec.edges[EdgeId(e)].from.index, dec.edges[EdgeId(e)].to.index);

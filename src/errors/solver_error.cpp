@@ -36,7 +36,7 @@ struct SegmentMeans {
   }
 };
 
-using Waves = WaveBlock<Vec2>;
+using Waves = FieldBlock<Vec2>;
 
 /// A mesh with its operators, and the waves in its units.
 struct ErrorSubject {
@@ -126,7 +126,7 @@ class CellSolver final : public Solver {
     const std::vector<Lanes> lambda = scheme.adjoint(waves.share, dec.areas, errors);
     for (const TriangleId t : mesh.triangles()) {
       const std::size_t p = t.index;
-      Lanes by_angle = Waves::slopes(value[p]);
+      Lanes by_angle = waves.slopes(value[p]);
       for (std::size_t i = 0; i < kLanes; ++i) {
         by_angle[i] *= -2 * waves.share * dec.areas[t] * errors[p][i];
         value[p][i] += errors[p][i];
@@ -142,7 +142,7 @@ class CellSolver final : public Solver {
   /// ∫ ∇u · n over an edge, n to its left.
   [[nodiscard]] Lanes flow_through(const Waves& waves, const DecEdge& edge) const {
     const Vec2 a = subject().mesh.position(edge.from), e = subject().mesh.position(edge.to) - a;
-    Lanes flow = Waves::slopes(waves.at(a + 0.5 * e));
+    Lanes flow = waves.slopes(waves.at(a + 0.5 * e));
     for (std::size_t d = 0; d < kDirections; ++d) {
       const double factor = cross(e, waves.k[d]) * SegmentMeans(0.5 * dot(waves.k[d], e)).even;
       flow[2 * d] *= factor, flow[2 * d + 1] *= factor;
@@ -159,7 +159,7 @@ class CellSolver final : public Solver {
       const std::size_t k = inner_triangle(edge).index;
       const Lanes outside = waves.at(edge.midpoint);
       by.transmissibility[id] += by_coefficient(lambda[k], {}, value[k], outside);
-      Lanes by_angle = Waves::slopes(outside);
+      Lanes by_angle = waves.slopes(outside);
       for (std::size_t i = 0; i < kLanes; ++i) by_angle[i] *= lambda[k][i] * dec.transmissibility[id];
       by.crossing[id] += dot(waves.by_place(by_angle), e) / edge.length;
       return;
@@ -169,7 +169,7 @@ class CellSolver final : public Solver {
     // ∫ f over the triangle on the left grows by f times the way if the edge moves to the right. The ends take ∫ f (1 −
     // t) and ∫ f t, t from 0 to 1.
     const Lanes middle = waves.at(from + 0.5 * e);
-    const Lanes slopes = Waves::slopes(middle);
+    const Lanes slopes = waves.slopes(middle);
     double even = 0, odd = 0;
     for (std::size_t d = 0; d < kDirections; ++d) {
       const SegmentMeans means(0.5 * dot(waves.k[d], e));

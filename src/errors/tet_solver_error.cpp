@@ -22,7 +22,7 @@ using error_detail::Cholesky;
 using error_detail::Lender;
 using error_detail::PointSystem;
 using error_detail::vertex_system;
-using Waves = error_detail::WaveBlock<Vec3>;
+using Fields = error_detail::FieldBlock<Vec3>;
 constexpr std::size_t kBlocksOfNumber = 2;
 
 /// ★0 and ★1 as sums over the parts of tetrahedra: ★1 of |e| |e*| over |e|², ★0 of its thirds, by the crossing.
@@ -110,14 +110,19 @@ class TetVertexError final : public DiscretizationError {
     const PointSystem points = vertex_system(dec, given);
     const auto matrix = last_.take();
     if (!matrix->factor(points.n_unknowns(), points.lower())) return {};
-    std::optional<Adjoint> by;
-    if (gradients != nullptr) by.emplace(mesh.n_vertices(), dec.edges.size());
-    const double sum = sum_over(error_detail::waves_of<Vec3>(field_frame(mesh), dec.volume, kBlocksOfNumber),
-                                by ? &*by : nullptr, executor, [&](const Waves& waves, Adjoint* part) {
-                                  return vertex_error(mesh, dec, {points, *matrix}, waves, part);
-                                });
-    if (by) gradients->assign(1, pulled_back(mesh, dec, *by));
-    return {sum};
+    if (gradients != nullptr) gradients->clear();
+    std::vector<double> sums;
+    const FieldFrame frame = field_frame(mesh);
+    for (const auto& fields : {error_detail::waves_of<Vec3>(frame, dec.volume, kBlocksOfNumber),
+                               error_detail::fronts_of<Vec3>(frame, dec.volume)}) {
+      std::optional<Adjoint> by;
+      if (gradients != nullptr) by.emplace(mesh.n_vertices(), dec.edges.size());
+      sums.push_back(sum_over(fields, by ? &*by : nullptr, executor, [&](const Fields& block, Adjoint* part) {
+        return vertex_error(mesh, dec, {points, *matrix}, block, part);
+      }));
+      if (by) gradients->push_back(pulled_back(mesh, dec, *by));
+    }
+    return sums;
   }
 
  private:
@@ -127,7 +132,7 @@ class TetVertexError final : public DiscretizationError {
 }  // namespace
 
 std::shared_ptr<const DiscretizationError> make_discretization_error(Scheme scheme) {
-  if (scheme == Scheme::vertex) return std::make_shared<TetVertexError>();
+  if (scheme == Scheme::vertex || scheme == Scheme::all) return std::make_shared<TetVertexError>();
   if (scheme == Scheme::cell) return std::make_shared<TetCellError>();
   return nullptr;
 }

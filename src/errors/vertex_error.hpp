@@ -1,7 +1,7 @@
-// The mean squared error of a scheme over blocks of waves, and its derivatives by the discrete adjoint. For unknowns at
-// the vertices of triangles or tetrahedra: d0ᵀ ★1 d0 u = ★0 f.
+// The mean squared error of a scheme over blocks of fields, and its derivatives by the discrete adjoint. For unknowns
+// at the vertices of triangles or tetrahedra: d0ᵀ ★1 d0 u = ★0 f.
 //
-// A scheme solves A v = b(u) for a wave u. The squared error is J = c Σ m e², e = v − u at the unknowns and m their
+// A scheme solves A v = b(u) for a field u. The squared error is J = c Σ m e², e = v − u at the unknowns and m their
 // sizes. The adjoint λ solves A λ = 2 c m e. Now v depends on A, b, m and u. The total derivative
 // of J by any of them is the derivative of J − λᵀ(A v − b) with v and λ kept.
 #pragma once
@@ -59,32 +59,33 @@ struct FactoredPoints {
   return sum;
 }
 
-/// The squared error of a block of waves at the vertices. If `by` is not null, adds its derivatives there. It solves
+/// The squared error of a block of fields at the vertices. If `by` is not null, adds its derivatives there. It solves
 /// for e directly: A e = b − A u.
 template <class AnyMesh, class Dec, class Vec>
 [[nodiscard]] double vertex_error(const AnyMesh& mesh, const Dec& dec, const FactoredPoints& scheme,
-                                  const WaveBlock<Vec>& waves, VertexAdjoint<Vec>* by) {
+                                  const FieldBlock<Vec>& fields, VertexAdjoint<Vec>* by) {
   std::vector<Lanes> value(mesh.n_vertices());
-  for (const VertexId v : mesh.vertices()) value[v.index] = waves.at(mesh.position(v));
-  std::vector<Lanes> errors = vertex_residuals(dec, waves.k2, value);
+  for (const VertexId v : mesh.vertices()) value[v.index] = fields.at(mesh.position(v));
+  std::vector<Lanes> errors = vertex_residuals(dec, fields, value);
   scheme.matrix.solve(scheme.points, errors);
-  const double sum = squared_error(waves.share, dec.star0, errors);
+  const double sum = squared_error(fields.share, dec.star0, errors);
   if (by == nullptr) return sum;
-  const std::vector<Lanes> lambda = scheme.adjoint(waves.share, dec.star0, errors);
+  const std::vector<Lanes> lambda = scheme.adjoint(fields.share, dec.star0, errors);
   for (const VertexId v : mesh.vertices()) {
     const std::size_t p = v.index;
     if (scheme.points.is_given(p)) continue;
-    const Lanes slopes = waves.slopes(value[p]);
+    const Lanes slopes = fields.slopes(value[p]), source = fields.source(value[p]),
+                by_value = fields.source_by_value(value[p]);
     Lanes by_angle;
     double by_size = 0;
     for (std::size_t i = 0; i < kLanes; ++i) {
-      const double by_source = waves.k2 * lambda[p][i], by_error = 2 * waves.share * errors[p][i];
-      by_size += by_source * value[p][i];
-      by_angle[i] = dec.star0[v] * (by_source - by_error) * slopes[i];
+      const double by_source = lambda[p][i], by_error = 2 * fields.share * errors[p][i];
+      by_size += by_source * source[i];
+      by_angle[i] = dec.star0[v] * (by_source * by_value[i] - by_error) * slopes[i];
       value[p][i] += errors[p][i];
     }
-    by->star0[v] += waves.share * squared(errors[p]) + by_size;
-    by->vertex[v] = by->vertex[v] + waves.by_place(by_angle);
+    by->star0[v] += fields.share * squared(errors[p]) + by_size;
+    by->vertex[v] = by->vertex[v] + fields.by_place(by_angle);
   }
   for (std::size_t e = 0; e < dec.edges.size(); ++e) {
     const std::size_t from = dec.edges[EdgeId(e)].from.index, to = dec.edges[EdgeId(e)].to.index;
@@ -93,7 +94,7 @@ template <class AnyMesh, class Dec, class Vec>
   return sum;
 }
 
-/// The sum of error(block, by) over all blocks of waves, and over their derivatives, in an order independent of the
+/// The sum of error(block, by) over all blocks, and over their derivatives, in an order independent of the
 /// number of threads. `by` has zeros, or is null.
 template <class Waves, class By, class Error>
 [[nodiscard]] double sum_over(const std::vector<Waves>& blocks, By* by, Executor* executor, const Error& error) {

@@ -1,4 +1,4 @@
-// The waves over which models of errors take their means, in the plane and in space.
+// The fields over which models of errors take their means, in the plane and in space: waves and fronts.
 #pragma once
 
 #include <array>
@@ -16,38 +16,68 @@ namespace temper::error_detail {
 
 // Wave numbers in radians per half of the bounding box.
 inline constexpr double kWaveNumbers[] = {1.5, 3.5};
+inline constexpr double kFrontNumber = 6;
+inline constexpr std::size_t kFrontBlocks = 3;
 // A block has a sine and a cosine in each direction. So the sum of their squares does not depend on the place.
 inline constexpr std::size_t kDirections = kLanes / 2;
 
-/// Waves side by side: in each direction the sine of its angle k · p + phase, then the cosine.
+/// Fields u side by side, two in each direction, as functions of the angle a = k · p + phase.
+///
+///   waves    sin a and cos a
+///   fronts   b/√(1 + b²) for b = a + shift and b = a − shift: steep where |b| < 1, which is near a plane
 template <class Vec>
-struct WaveBlock {
+struct FieldBlock {
   std::array<Vec, kDirections> k = {};
   std::array<double, kDirections> phase = {};
   double k2 = 0;     // |k|²
-  double share = 0;  // c of J, relative to the mean square ½, over k⁴ in the frame, in the mean
+  double share = 0;  // c of J
+  bool has_fronts = false;
+  double shift = 0;
 
   [[nodiscard]] Lanes at(Vec p) const {
+    const auto front = [](double b) { return b / std::sqrt(1 + b * b); };
     Lanes values;
     for (std::size_t d = 0; d < kDirections; ++d) {
-      const auto [sine, cosine] = sine_cosine(dot(k[d], p) + phase[d]);
-      values[2 * d] = sine, values[2 * d + 1] = cosine;
+      const double angle = dot(k[d], p) + phase[d];
+      if (has_fronts) {
+        values[2 * d] = front(angle + shift), values[2 * d + 1] = front(angle - shift);
+      } else {
+        const auto [sine, cosine] = sine_cosine(angle);
+        values[2 * d] = sine, values[2 * d + 1] = cosine;
+      }
     }
     return values;
   }
-  /// The derivatives by the angles, from the values.
-  static Lanes slopes(const Lanes& values) {
+  /// The derivatives by the angles, from the values. Those of fronts are c³, with c² = 1 − u².
+  [[nodiscard]] Lanes slopes(const Lanes& values) const {
+    if (has_fronts) return of_each(values, [](double, double c2) { return c2 * std::sqrt(c2); });
     Lanes slopes;
     for (std::size_t d = 0; d < kDirections; ++d) {
       slopes[2 * d] = values[2 * d + 1], slopes[2 * d + 1] = -values[2 * d];
     }
     return slopes;
   }
+  /// f = −Δu, from the values: k² u, or 3 k² u c⁴.
+  [[nodiscard]] Lanes source(const Lanes& values) const {
+    return of_each(values, [this](double u, double c2) { return has_fronts ? 3 * k2 * u * c2 * c2 : k2 * u; });
+  }
+  /// The derivatives of f by u. Those by the angles are slopes() times as large.
+  [[nodiscard]] Lanes source_by_value(const Lanes& values) const {
+    return of_each(values, [this](double u, double c2) { return has_fronts ? 3 * k2 * c2 * (c2 - 4 * u * u) : k2; });
+  }
   /// Σ by_angle k.
   [[nodiscard]] Vec by_place(const Lanes& by_angle) const {
     Vec sum;
     for (std::size_t d = 0; d < kDirections; ++d) sum = sum + (by_angle[2 * d] + by_angle[2 * d + 1]) * k[d];
     return sum;
+  }
+
+ private:
+  template <class Function>  // of u and 1 − u²
+  [[nodiscard]] static Lanes of_each(const Lanes& values, const Function& function) {
+    Lanes results;
+    for (std::size_t i = 0; i < kLanes; ++i) results[i] = function(values[i], 1 - values[i] * values[i]);
+    return results;
   }
 };
 
@@ -65,22 +95,44 @@ inline void set_direction(Vec3& unit, std::size_t i, std::size_t n) {
   unit = {r * cosine, r * sine, z};
 }
 
-/// Some blocks for each wave number, in the units of a mesh with this frame and this area or volume. The directions of
-/// one block are between those of the others.
+/// A block with wave number `in_frame`. The directions of block b of n are between those of the others.
 template <class Vec, class Frame>
-[[nodiscard]] std::vector<WaveBlock<Vec>> waves_of(const Frame& frame, double size, std::size_t blocks_of_number) {
+[[nodiscard]] FieldBlock<Vec> block_of(const Frame& frame, double in_frame, std::size_t b, std::size_t n) {
+  const double number = in_frame / frame.half_size;
+  FieldBlock<Vec> block;
+  block.k2 = number * number;
+  for (std::size_t d = 0; d < kDirections; ++d) {
+    Vec unit;
+    set_direction(unit, n * d + b, n * kDirections);
+    block.k[d] = number * unit;
+    block.phase[d] = -dot(block.k[d], frame.center);
+  }
+  return block;
+}
+
+/// Some blocks of waves for each wave number, in the units of a mesh with this frame and this area or volume. Their
+/// errors are relative to the mean square ½, over k⁴ in the frame, in the mean.
+template <class Vec, class Frame>
+[[nodiscard]] std::vector<FieldBlock<Vec>> waves_of(const Frame& frame, double size, std::size_t blocks_of_number) {
   const std::size_t n = blocks_of_number * std::size(kWaveNumbers);
-  std::vector<WaveBlock<Vec>> blocks(n);
+  std::vector<FieldBlock<Vec>> blocks;
   for (std::size_t b = 0; b < n; ++b) {
-    const double in_frame = kWaveNumbers[b / blocks_of_number], number = in_frame / frame.half_size;
-    blocks[b].k2 = number * number;
+    const double in_frame = kWaveNumbers[b / blocks_of_number];
+    blocks.push_back(block_of<Vec>(frame, in_frame, b, n));
     blocks[b].share = 2 / (size * in_frame * in_frame * in_frame * in_frame * static_cast<double>(n) * kLanes);
-    for (std::size_t d = 0; d < kDirections; ++d) {
-      Vec unit;
-      set_direction(unit, n * d + b, n * kDirections);
-      blocks[b].k[d] = number * unit;
-      blocks[b].phase[d] = -dot(blocks[b].k[d], frame.center);
-    }
+  }
+  return blocks;
+}
+
+/// Blocks of fronts, each a quarter of the half frame away from its middle. Their errors are in the mean.
+template <class Vec, class Frame>
+[[nodiscard]] std::vector<FieldBlock<Vec>> fronts_of(const Frame& frame, double size) {
+  std::vector<FieldBlock<Vec>> blocks;
+  for (std::size_t b = 0; b < kFrontBlocks; ++b) {
+    blocks.push_back(block_of<Vec>(frame, kFrontNumber, b, kFrontBlocks));
+    blocks[b].share = 1 / (size * static_cast<double>(kFrontBlocks * kLanes));
+    blocks[b].has_fronts = true;
+    blocks[b].shift = 0.25 * kFrontNumber;
   }
   return blocks;
 }

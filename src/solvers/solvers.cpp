@@ -29,12 +29,16 @@ Solvers solvers() {
 
 namespace temper::tets {
 
-#ifdef TEMPER_WITH_ERRORS
-std::shared_ptr<const DiscretizationError> discretization_error(Scheme scheme) {
-  return make_discretization_error(scheme);
-}
-#else
-std::shared_ptr<const DiscretizationError> discretization_error(Scheme /*scheme*/) { return nullptr; }
+Solvers solvers([[maybe_unused]] Scheme scheme) {
+  Solvers all;
+#ifdef TEMPER_WITH_LP
+  all.lp = [] { return clp_solver(); };
+  all.convex = [] { return interior_point_solver(); };
 #endif
+#ifdef TEMPER_WITH_ERRORS
+  all.error = make_discretization_error(scheme);
+#endif
+  return all;
+}
 
 }  // namespace temper::tets

@@ -39,7 +39,7 @@ void improve(const OptimizeSettings& s, TetInput& input, const RunFiles& files, 
   ProgressLine line(!is_quiet() && error_is_terminal(), Tetrahedra::elements);
   tets::OptimizeHooks hooks;
   set_hooks(hooks, line, s, input, files.threads);
-  hooks.error = tets::discretization_error(s.options.scheme);
+  hooks.solvers = tets::solvers(s.options.scheme);
   results.second = input.mesh();
   results.improved = &results.second;
   results.original = &input.mesh();

@@ -18,6 +18,10 @@
 #include "temper/optimize.hpp"
 #include "temper/tets/mesh.hpp"
 
+namespace temper {
+class ConvexSolver;
+}
+
 namespace temper::tets {
 
 using DiscretizationError = DiscretizationErrorOf<TetMesh, WeightedPoint>;
@@ -30,13 +34,21 @@ struct BestSoFar {
 /// A listener for which the mesh is not copied.
 using BestListener = BestListenerOf<BestSoFar>;
 
+/// The solvers of other libraries. solvers() returns those of this build (temper/solvers.hpp).
+struct Solvers {
+  /// Solvers that find the least weights. Empty: a run moves vertices where weights alone would do.
+  std::function<std::unique_ptr<LpSolver>()> lp = {};
+  std::function<std::unique_ptr<ConvexSolver>()> convex = {};
+  std::shared_ptr<const DiscretizationError> error = {};  ///< Model of the errors of the scheme; null: none
+};
+
 struct OptimizeHooks {
   Observer observer = {};  ///< Observer of the progress, which may stop the run. Any thread calls it, one at a time
   Executor* executor = nullptr;  ///< Threads; the result does not depend on them
   /// Start of the time limit, as in temper::OptimizeHooks. Absent: the time of the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
-  std::shared_ptr<const DiscretizationError> error = {};  ///< Model of the errors of the scheme; null: none
-  BestListener best_so_far = {};                          ///< Listener that may get each new best mesh
+  Solvers solvers = {};
+  BestListener best_so_far = {};  ///< Listener that may get each new best mesh
 };
 
 /// The objective is the energy at the least γ, or the HOT energy.

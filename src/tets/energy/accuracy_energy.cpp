@@ -6,6 +6,8 @@
 
 #include "base/portable_log.hpp"
 #include "temper/detail/executor.hpp"
+#include "temper/tets/geometry.hpp"
+#include "tets/energy/star_kernel.hpp"
 #include "tets/mesh/tables.hpp"
 
 namespace temper::tets {
@@ -30,9 +32,19 @@ double mean(const VertexSizes& sizes, std::span<const VertexId> vertices) {
 
 }  // namespace
 
-AccuracyEnergy::AccuracyEnergy(const TetMesh& mesh, const VertexSizes& sizes, IdVector<TetId, double> floors,
-                               const AccuracyModel& model)
-    : elements_(mesh.n_tetrahedra()), barriers_(mesh.n_tetrahedra()), floors_(std::move(floors)) {
+double height_that_counts(const TetMesh& mesh, HalffaceId h, Criterion criterion) {
+  const auto height = [&mesh](HalffaceId side) {
+    const auto [p, q, r] = mesh.vertices(side);
+    const Vec3 a = mesh.position(q) - mesh.position(p), b = mesh.position(r) - mesh.position(p);
+    return signed_height(mesh.point(p), mesh.point(q), mesh.point(r), mesh.point(mesh.opposite(side))) /
+           (kLengthOfArea * std::sqrt(length(cross(a, b))));
+  };
+  return height(h) + (has_joined_sides(mesh, h, criterion) ? height(mesh.twin(h)) : 0);
+}
+
+AccuracyEnergy::AccuracyEnergy(const TetMesh& mesh, const VertexSizes& sizes, Floors floors, const AccuracyModel& model,
+                               Criterion criterion)
+    : elements_(mesh.n_tetrahedra()), barriers_(mesh.n_halffaces()), floors_(std::move(floors)), criterion_(criterion) {
   const EdgeTable table(mesh, nullptr);
   std::vector<std::uint8_t> on_boundary(6 * mesh.n_tetrahedra(), 0);
   for (const HalffaceId h : mesh.halffaces()) {
@@ -55,7 +67,10 @@ AccuracyEnergy::AccuracyEnergy(const TetMesh& mesh, const VertexSizes& sizes, Id
       elements_[t].edges[e] = number;
     }
     const double s = mean(sizes, corners);
-    barriers_[t] = floors_[t] == kNoFloor ? 0 : model.barrier * s * s * s;
+    for (int f = 0; f < 4; ++f) {
+      const HalffaceId h = TetMesh::halfface(t, f);
+      barriers_[h] = floors_[h] == kNoFloor ? 0 : model.barrier * s * s * s;
+    }
   }
   for (const HalffaceId h : mesh.halffaces()) {
     if (!mesh.is_face_representative(h)) continue;
@@ -66,9 +81,18 @@ AccuracyEnergy::AccuracyEnergy(const TetMesh& mesh, const VertexSizes& sizes, Id
     if (twin.valid()) elements_[TetMesh::tetrahedron(twin)].faces[twin.index % 4] = number;
   }
   const std::vector<Offset> sums = sums_of(parts_of(mesh, nullptr));
+  is_left_out_.resize(factors_.size());
   for (std::size_t i = 0; i < factors_.size(); ++i) {
-    if (!(sums[i].volume > 0)) factors_[i] = 0;
+    if (factors_[i] == 0 || sums[i].volume > 0) continue;
+    factors_[i] = 0;
+    is_left_out_[i] = 1;
   }
+}
+
+bool AccuracyEnergy::leaves_out_part_of(TetId t) const {
+  const auto is_out = [this](std::uint32_t element) { return is_left_out_[element] != 0; };
+  const auto& [edges, faces] = elements_[t];
+  return std::any_of(edges.begin(), edges.end(), is_out) || std::any_of(faces.begin(), faces.end(), is_out);
 }
 
 AccuracyEnergy::Parts AccuracyEnergy::parts_of(const TetMesh& mesh, Executor* executor) {
@@ -87,17 +111,26 @@ std::vector<Offset> AccuracyEnergy::sums_of(const Parts& parts) const {
   return sums;
 }
 
+double AccuracyEnergy::barrier_of(const TetMesh& mesh, const Parts& parts, Floors& by_height) const {
+  double sum = 0;
+  const auto height = [&parts](HalffaceId h) { return parts[TetMesh::tetrahedron(h)].height[h.index % 4]; };
+  for (const HalffaceId h : mesh.halffaces()) {
+    if (barriers_[h] == 0) continue;
+    const HalffaceId twin = has_joined_sides(mesh, h, criterion_) ? mesh.twin(h) : HalffaceId();
+    const double room = height(h) + (twin.valid() ? height(twin) : 0) - floors_[h];
+    sum += room > 0 ? -barriers_[h] * portable_log(room) : HUGE_VAL;
+    by_height[h] -= barriers_[h] / room;
+    if (twin.valid()) by_height[twin] -= barriers_[h] / room;
+  }
+  return sum;
+}
+
 AccuracyTotal AccuracyEnergy::of(const TetMesh& mesh, Gradient* gradient, Executor* executor) const {
   const Parts parts = parts_of(mesh, executor);
   std::vector<Offset> sums = sums_of(parts);
   AccuracyTotal total;
-  for (const TetId t : mesh.tetrahedra()) {
-    for (const double height : parts[t].height) {
-      if (barriers_[t] == 0) break;
-      const double room = height - floors_[t];
-      total.barrier += room > 0 ? -barriers_[t] * portable_log(room) : HUGE_VAL;
-    }
-  }
+  Floors by_height(mesh.n_halffaces(), 0);
+  total.barrier = barrier_of(mesh, parts, by_height);
   // From sums of V and N to the derivatives by them.
   for (std::size_t i = 0; i < sums.size(); ++i) {
     if (factors_[i] == 0) {  // maybe no numbers
@@ -116,7 +149,7 @@ AccuracyTotal AccuracyEnergy::of(const TetMesh& mesh, Gradient* gradient, Execut
     for (std::size_t e = 0; e < 6; ++e) by.edges[e] = sums[elements_[t].edges[e]];
     for (std::size_t f = 0; f < 4; ++f) {
       by.faces[f] = sums[elements_[t].faces[f]];
-      by.height[f] = -barriers_[t] / (parts[t].height[f] - floors_[t]);
+      by.height[f] = by_height[TetMesh::halfface(t, static_cast<int>(f))];
     }
     slopes[t] = TetDuals(mesh, t).pulled_back(by);
   });

@@ -13,7 +13,9 @@
 // (parts.hpp), but E is not: the parts of a dual cancel. A sum of |N|²/V over tetrahedra bounds it, yet its minimum
 // cannot be near 0.
 //
-// Behind it stands the barrier − μ Σ_tetrahedra s³ Σ_faces ln(h/ℓ − f), with the floor f of the tetrahedron.
+// Behind it stands the barrier − μ Σ s³ ln(h/ℓ − f) over the sides of all faces, with the height h and the floor f of
+// the side. If the criterion asks for positive dual lengths only, a face inside a region has the sum of its heights on
+// both sides.
 #pragma once
 
 #include <array>
@@ -21,6 +23,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "temper/detail/criterion.hpp"
 #include "temper/tets/mesh.hpp"
 #include "tets/energy/parts.hpp"
 
@@ -38,17 +41,27 @@ struct AccuracyTotal {
 
 using VertexSizes = IdVector<VertexId, double>;
 
+/// Says whether the heights on both sides of a face count together.
+[[nodiscard]] inline bool has_joined_sides(const TetMesh& mesh, HalffaceId h, Criterion criterion) {
+  return criterion != Criterion::well_centered && !mesh.bounds_region(h);
+}
+/// h/ℓ of a side of a face, or the sum of both sides if they count together.
+[[nodiscard]] double height_that_counts(const TetMesh& mesh, HalffaceId h, Criterion criterion);
+
 /// The energy of meshes with one connectivity. Sizes and floors stay.
 class AccuracyEnergy {
  public:
-  static constexpr double kNoFloor = -HUGE_VAL;  ///< The floor of a tetrahedron without a barrier
+  static constexpr double kNoFloor = -HUGE_VAL;  ///< The floor of a side without a barrier
+  using Floors = IdVector<HalffaceId, double>;
 
   AccuracyEnergy() = default;
   /// Elements of this mesh whose V is not positive are left out.
-  AccuracyEnergy(const TetMesh& mesh, const VertexSizes& sizes, IdVector<TetId, double> floors,
-                 const AccuracyModel& model);
+  AccuracyEnergy(const TetMesh& mesh, const VertexSizes& sizes, Floors floors, const AccuracyModel& model,
+                 Criterion criterion);
+  /// Says whether an element of a tetrahedron is left out.
+  [[nodiscard]] bool leaves_out_part_of(TetId t) const;
 
-  /// Infinite if some V is not positive, or some height not above its floor. If `gradient` is not null, sets it to the
+  /// Infinite if some V is not positive, or some side not above its floor. If `gradient` is not null, sets it to the
   /// derivatives of the sum by all vertices.
   [[nodiscard]] AccuracyTotal of(const TetMesh& mesh, Gradient* gradient, Executor* executor) const;
 
@@ -63,10 +76,14 @@ class AccuracyEnergy {
   [[nodiscard]] static Parts parts_of(const TetMesh& mesh, Executor* executor);
   /// V and N of all elements.
   [[nodiscard]] std::vector<Offset> sums_of(const Parts& parts) const;
+  /// Returns the barrier, and adds its derivatives by all heights.
+  double barrier_of(const TetMesh& mesh, const Parts& parts, Floors& by_height) const;
 
   IdVector<TetId, Elements> elements_;
-  std::vector<double> factors_;                // of the elements: edges, then faces
-  IdVector<TetId, double> barriers_, floors_;  // μ s³
+  std::vector<double> factors_;  // of the elements: edges, then faces
+  std::vector<std::uint8_t> is_left_out_;
+  Floors barriers_, floors_;  // μ s³
+  Criterion criterion_ = Criterion::well_centered;
 };
 
 }  // namespace temper::tets

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "base/cube_root.hpp"
+#include "base/loops.hpp"
+#include "tets/quality/duals.hpp"
 
 namespace temper::tets {
 namespace {
@@ -13,20 +15,53 @@ namespace {
 // Floors: the margin ε, or this part of a smaller one. A larger part keeps repaired tetrahedra in the way: on a cube,
 // 0.2 leaves an error of 1.12 where 0.01 leaves 1.03.
 constexpr double kMargin = 0.02, kFloorOfMargin = 0.01;
-constexpr double kBarrier = 0.005;  // μ
-constexpr double kOffsetShare = 3;  // κ
+constexpr double kMostOfMargin = 0.9;  // of a margin that is to stay
+constexpr double kBarrier = 0.005;     // μ
+constexpr double kOffsetShare = 3;     // κ
 constexpr int kSmoothings = 10;
 // The phase ends if kStepsToGain steps lower the sum by less than kLeastGain.
-constexpr std::size_t kStepsToGain = 20;
-constexpr double kLeastGain = 1e-3;
+constexpr std::size_t kStepsToGain = 10;
+constexpr double kLeastGain = 5e-3;
 // Below, the margin is not certain in doubles.
 constexpr double kLeastMargin = 1e-9;
+// The rounding of a cosine.
+constexpr double kRounding = 1e-12;
+
+[[nodiscard]] WeightedPoint operator*(double f, const WeightedPoint& p) { return {f * p.x, f * p.y, f * p.z, f * p.w}; }
+[[nodiscard]] WeightedPoint operator+(const WeightedPoint& a, const WeightedPoint& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
+}
 
 }  // namespace
 
+double largest_dihedral_cosine(const TetMesh& mesh, TetId t) {
+  std::array<Vec3, 4> normals;
+  double most = -1;
+  for (std::size_t f = 0; f < 4; ++f) {
+    const auto [p, q, r] = mesh.vertices(TetMesh::halfface(t, static_cast<int>(f)));
+    const Vec3 n = cross(mesh.position(q) - mesh.position(p), mesh.position(r) - mesh.position(p));
+    normals[f] = 1 / length(n) * n;
+    for (std::size_t g = 0; g < f; ++g) most = std::max(most, -dot(normals[f], normals[g]));
+  }
+  return most;
+}
+
+double largest_dihedral_cosine(const TetMesh& mesh, Executor* executor) {
+  IdVector<TetId, double> of(mesh.n_tetrahedra());
+  for_each_index(of.size(), executor, [&](std::size_t t) { of[TetId(t)] = largest_dihedral_cosine(mesh, TetId(t)); });
+  return *std::max_element(of.begin(), of.end());
+}
+
 AccuracyModel accuracy_model(Scheme scheme) {
   // Vertex-centered: no flux passes the duals of boundary edges. Cells: the first flux passes the boundary faces.
-  return scheme == Scheme::cell ? AccuracyModel{0, 0, 1, 3, kBarrier} : AccuracyModel{1, 0.03, 0, 0, kBarrier};
+  switch (scheme) {
+    case Scheme::vertex:
+      return {1, 0.03, 0, 0, kBarrier};
+    case Scheme::cell:
+      return {0, 0, 1, 3, kBarrier};
+    default:
+      return {1, 0.03, 1, 3, kBarrier};
+  }
 }
 
 VertexSizes local_sizes(const TetMesh& mesh) {
@@ -50,48 +85,80 @@ VertexSizes local_sizes(const TetMesh& mesh) {
 }
 
 Accuracy::Accuracy(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const AccuracyModel& model,
-                   const DiscretizationError* error, Executor* executor)
+                   const AccuracyLimits& limits, AccuracyErrors errors, Executor* executor)
     : mesh_(mesh),
       mobility_(std::move(mobility)),
-      error_(error),
+      criterion_(limits.criterion),
+      errors_(std::move(errors)),
       executor_(executor),
       before_(mesh.n_vertices()),
       sizes_(local_sizes(mesh)),
-      floors_(mesh.n_tetrahedra()) {
-  for (const TetId t : mesh.tetrahedra()) {
-    const double margin = is_good(mesh, t) ? least_height(mesh, t) : 0;
-    floors_[t] = margin > kLeastMargin ? std::min(kMargin, kFloorOfMargin * margin) : AccuracyEnergy::kNoFloor;
-    if (floors_[t] != AccuracyEnergy::kNoFloor) continue;
-    for (const VertexId v : mesh.corners(t)) mobility_[v] = Mobility::none;
+      floors_(mesh.n_halffaces()),
+      most_cosine_(mesh.n_tetrahedra()) {
+  for (const HalffaceId h : mesh.halffaces()) {
+    const double height = keeps_criterion(h) ? height_that_counts(mesh, h, criterion_) : 0;
+    const double floor =
+        std::max(std::min(kMargin, kFloorOfMargin * height), std::min(limits.margin, kMostOfMargin * height));
+    floors_[h] = height > kLeastMargin ? floor : AccuracyEnergy::kNoFloor;
   }
-  energy_ = AccuracyEnergy(mesh, sizes_, floors_, model);
+  energy_ = AccuracyEnergy(mesh, sizes_, floors_, model, criterion_);
+  const auto keep = [this](VertexId v) { mobility_[v] = Mobility::none; };
+  for (const TetId t : mesh.tetrahedra()) {
+    bool stays = energy_.leaves_out_part_of(t);
+    for (int f = 0; f < 4; ++f) {
+      const HalffaceId h = TetMesh::halfface(t, f);
+      if (floors_[h] != AccuracyEnergy::kNoFloor) continue;
+      stays = true;
+      if (has_joined_sides(mesh, h, criterion_)) keep(mesh.opposite(mesh.twin(h)));
+    }
+    if (stays) std::for_each(mesh.corners(t).begin(), mesh.corners(t).end(), keep);
+    most_cosine_[t] = std::max(limits.most_cosine, largest_dihedral_cosine(mesh, t) + kRounding);
+  }
   now_ = value();
+}
+
+bool Accuracy::keeps_criterion(HalffaceId h) const {
+  return (has_joined_sides(mesh_, h, criterion_) ? dual_sign(mesh_, h) : height_sign(mesh_, h)) == Sign::positive;
+}
+
+double Accuracy::room(std::size_t tetrahedron) const {
+  const TetId t(tetrahedron);
+  double least = most_cosine_[t] - largest_dihedral_cosine(mesh_, t);
+  for (int f = 0; f < 4; ++f) {
+    const HalffaceId h = TetMesh::halfface(t, f);
+    if (floors_[h] == AccuracyEnergy::kNoFloor) continue;
+    least = std::min(least, height_that_counts(mesh_, h, criterion_) - floors_[h]);
+  }
+  return least;
 }
 
 Accuracy::Value Accuracy::value() const {
   Value result;
   result.lowered = result.measure = HUGE_VAL;
   std::vector<Gradient> of_errors;
-  const std::vector<double> errors = error_ ? error_->errors(mesh_, &of_errors, executor_) : std::vector{1.0};
-  if (!error_) of_errors.emplace_back(mesh_.n_vertices());
-  Gradient of_energy;
-  const auto [offsets, barrier] = energy_.of(mesh_, &of_energy, executor_);
+  const std::vector<double> errors =
+      errors_.model ? errors_.model->errors(mesh_, &of_errors, executor_) : std::vector<double>{};
+  if (errors.size() != errors_.unit.size()) return result;
+  Gradient slopes;
+  const auto [offsets, barrier] = energy_.of(mesh_, &slopes, executor_);
   const double sum = offsets + barrier;
-  if (errors.empty() || !(errors[0] > 0 && std::isfinite(errors[0]) && sum > 0 && std::isfinite(sum))) return result;
-  result.measure = error_ ? std::sqrt(errors[0]) : offsets;
-  const LogObjective objective = log_objective(errors, {1}, sum, kOffsetShare);
+  const LogObjective objective = log_objective(errors, errors_.unit, sum, kOffsetShare);
+  if (!(sum > 0 && std::isfinite(objective.value))) return result;
   result.lowered = objective.value;
+  result.measure = errors_.model ? std::sqrt(objective.mean) : offsets;
+  for (const VertexId v : mesh_.vertices()) {
+    slopes[v] = objective.by_total * slopes[v];
+    for (std::size_t i = 0; i < errors.size(); ++i) slopes[v] = slopes[v] + objective.by_error[i] * of_errors[i][v];
+  }
   result.gradient.resize(kUnknowns * mesh_.n_vertices());
-  const double by_error = objective.by_error[0], by_sum = objective.by_total;
   for (const VertexId v : mesh_.vertices()) {
     double* to = &result.gradient[kUnknowns * v.index];
     const double s = sizes_[v];
-    const WeightedPoint &of_error = of_errors[0][v], &of_sum = of_energy[v];
     if (mobility_[v].moves()) {
-      const Vec3 at = mobility_[v].allowed(by_error * of_error.position() + by_sum * of_sum.position());
+      const Vec3 at = mobility_[v].allowed(slopes[v].position());
       to[0] = s * at.x, to[1] = s * at.y, to[2] = s * at.z;
     }
-    if (mobility_[v].weighs) to[3] = s * s * (by_error * of_error.w + by_sum * of_sum.w);
+    if (mobility_[v].weighs) to[3] = s * s * slopes[v].w;
   }
   return result;
 }
@@ -108,9 +175,17 @@ void Accuracy::place(const Descent::Vector& step, double t) {
 }
 
 bool Accuracy::is_inside() const {
+  const auto is_kept = [this](TetId t) {
+    const auto [p, q, r, s] = mesh_.points(t);
+    if (orientation(p.position(), q.position(), r.position(), s.position()) != Sign::positive) return false;
+    for (int f = 0; f < 4; ++f) {
+      const HalffaceId h = TetMesh::halfface(t, f);
+      if (floors_[h] != AccuracyEnergy::kNoFloor && !keeps_criterion(h)) return false;
+    }
+    return largest_dihedral_cosine(mesh_, t) <= most_cosine_[t];
+  };
   const auto all = mesh_.tetrahedra();
-  return std::all_of(all.begin(), all.end(),
-                     [this](TetId t) { return floors_[t] == AccuracyEnergy::kNoFloor || is_good(mesh_, t); });
+  return std::all_of(all.begin(), all.end(), is_kept);
 }
 
 bool Accuracy::descend(const MustStop& must_stop) {

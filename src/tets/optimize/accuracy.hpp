@@ -4,8 +4,9 @@
 //     ln J + κ ln(E + B),
 //
 // with the error J of a scheme, and the energy E and the barrier B of accuracy_energy.hpp, as in the plane
-// (optimize/solver_error). Without a model of J they lower the second term alone. A tetrahedron whose orthocenter is
-// inside stays so, by exact predicates. One that is bad stays as it is, with its corners.
+// (optimize/solver_error). Without a model of J they lower the second term alone. Faces that keep the criterion go on
+// to keep it, by exact predicates. Around others all corners stay. No dihedral angle falls below a limit, or below the
+// least one that its tetrahedron has.
 #pragma once
 
 #include <vector>
@@ -19,21 +20,37 @@
 
 namespace temper::tets {
 
-/// The factors of E and the barrier for Scheme::vertex or Scheme::cell.
+/// The factors of E and the barrier for a scheme.
 [[nodiscard]] AccuracyModel accuracy_model(Scheme scheme);
 
 /// The edges of regular tetrahedra of the mean volume around each vertex, averaged ten times with the neighbors'.
 [[nodiscard]] VertexSizes local_sizes(const TetMesh& mesh);
 
+/// What steps keep.
+struct AccuracyLimits {
+  Criterion criterion = Criterion::well_centered;
+  double most_cosine = 1;  ///< Largest cosine of a dihedral angle
+  double margin = 0;       ///< Least h/ℓ of sides that have it
+};
+
+/// The errors that are lowered.
+struct AccuracyErrors {
+  const DiscretizationError* model = nullptr;  ///< J, or null
+  std::vector<double> unit;                    ///< Errors that count as 1, one for each error of the model
+};
+
+/// The cosine of the least dihedral angle of a tetrahedron or of a mesh.
+[[nodiscard]] double largest_dihedral_cosine(const TetMesh& mesh, TetId t);
+[[nodiscard]] double largest_dihedral_cosine(const TetMesh& mesh, Executor* executor);
+
 class Accuracy {
  public:
-  /// `error`: J, or null. Then it has no bad tetrahedron.
   Accuracy(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const AccuracyModel& model,
-           const DiscretizationError* error, Executor* executor);
+           const AccuracyLimits& limits, AccuracyErrors errors, Executor* executor);
 
   /// Takes one step. Returns false if there is none, or if it must stop.
   bool descend(const MustStop& must_stop);
-  /// √J after the last step, or without a model E.
+  /// The root mean square of the errors J after the last step, or without a model E.
   [[nodiscard]] double measure() const { return now_.measure; }
 
  private:
@@ -48,19 +65,21 @@ class Accuracy {
   [[nodiscard]] bool is_inside() const;
   [[nodiscard]] std::size_t n_elements() const { return mesh_.n_tetrahedra(); }
   [[nodiscard]] const auto& corners(std::size_t tetrahedron) const { return mesh_.corners(TetId(tetrahedron)); }
-  [[nodiscard]] double room(std::size_t tetrahedron) const {
-    return least_height(mesh_, TetId(tetrahedron)) - floors_[TetId(tetrahedron)];
-  }
+  /// The least distance to a limit, of a height or of the cosine of an angle.
+  [[nodiscard]] double room(std::size_t tetrahedron) const;
+  [[nodiscard]] bool keeps_criterion(HalffaceId h) const;
   /// Moves the vertices from before_ by t times the step.
   void place(const Descent::Vector& step, double t);
 
   TetMesh& mesh_;
   IdVector<VertexId, Mobility> mobility_;
-  const DiscretizationError* error_;
+  Criterion criterion_;
+  AccuracyErrors errors_;
   Executor* executor_;
   IdVector<VertexId, WeightedPoint> before_;  // the step
   VertexSizes sizes_;                         // units of positions; their squares are those of weights
-  IdVector<TetId, double> floors_;
+  AccuracyEnergy::Floors floors_;
+  IdVector<TetId, double> most_cosine_;  // of a dihedral angle
   AccuracyEnergy energy_;
   Descent descent_;
   Value now_;

@@ -108,6 +108,17 @@ Patch PatchMaker::make(std::vector<TetId> tetrahedra) {
   input.faces = faces, input.face_tags = face_tags;
   input.lines = lines, input.line_tags = line_tags;
   if (std::optional<TetMesh> built = rebuilt(input)) patch.draft = Draft(*std::move(built), std::move(mobility));
+  for (const TetId t : tetrahedra) {
+    for (int f = 0; f < 4; ++f) {
+      const HalffaceId h = TetMesh::halfface(t, f);
+      if (mesh.is_boundary(h) || is_inside(mesh.twin(h))) continue;
+      std::array<VertexId, 3> face = mesh.vertices(h);
+      for (VertexId& v : face) v = VertexId(number_[v]);
+      std::sort(face.begin(), face.end());
+      patch.draft.rim.push_back(face);
+    }
+  }
+  std::sort(patch.draft.rim.begin(), patch.draft.rim.end());
   for (const VertexId v : patch.vertices) number_[v] = -1;
   patch.tetrahedra = std::move(tetrahedra);
   return patch;
@@ -127,7 +138,7 @@ bool put_back(std::span<const Patch> patches, Draft& whole) {
   NextMesh next(mesh, whole.names, gone, removed);
   IdVector<VertexId, Mobility> mobility = whole.mobility;
   for (const Patch& patch : patches) {
-    const auto& [part, names, mobility_of_part, flips] = patch.draft;
+    const auto& [part, names, mobility_of_part, flips, rim] = patch.draft;
     IdVector<VertexId, NextMesh::Number> number;
     for (const VertexId v : part.vertices()) {
       const VertexId name = names.vertices[v];

@@ -15,8 +15,9 @@ namespace temper::tets {
 struct Draft {
   TetMesh mesh;
   Names names;
-  IdVector<VertexId, Mobility> mobility;  ///< of the vertices by name
-  std::size_t flips = 0;                  ///< changes without a new or removed vertex
+  IdVector<VertexId, Mobility> mobility;          ///< of the vertices by name
+  std::size_t flips = 0;                          ///< changes without a new or removed vertex
+  std::vector<std::array<VertexId, 3>> rim = {};  ///< of a patch: faces to other tetrahedra, by name, both sorted
 
   Draft() = default;
   Draft(TetMesh start, IdVector<VertexId, Mobility> mobility_of_start)

@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/repair.hpp"
 #include "tets/quality/measure.hpp"
 
@@ -25,9 +26,11 @@ constexpr int kRingsOfAll = 2;
 // Rings of tetrahedra around a place, one more for each search in vain, and the most searches.
 constexpr int kRings = 2, kTriesOfPlace = 4;
 
-/// The tetrahedra that need a change: the bad ones, or else those with a small margin, the smallest first.
-std::vector<TetId> to_change(const TetMesh& mesh, double small_margin, Executor* executor = nullptr) {
-  std::vector<TetId> result = bad_tetrahedra(mesh, executor);
+/// The tetrahedra that need a change: the violating ones, or else those with a small margin, the smallest first.
+std::vector<TetId> to_change(const Draft& draft, const SearchOptions& options, Executor* executor = nullptr) {
+  const TetMesh& mesh = draft.mesh;
+  const double small_margin = options.small_margin;
+  std::vector<TetId> result = violating(draft, options.criterion, executor);
   if (!result.empty() || small_margin == 0) return result;
   std::vector<std::pair<double, TetId>> small;
   for (const TetId t : mesh.tetrahedra()) {
@@ -76,7 +79,7 @@ bool settle(Draft& draft, const std::vector<VertexId>& vertices, const MustStop&
 std::vector<Filling> first_changes(const Draft& draft, std::size_t k, const SearchOptions& options,
                                    const MustStop& must_stop) {
   constexpr std::array<double, 4> kAllowances = {2 * kAllowance, kAllowance, 4 * kAllowance, kAllowance / 2};
-  const std::vector<TetId> places = to_change(draft.mesh, options.small_margin);
+  const std::vector<TetId> places = to_change(draft, options);
   if (places.empty()) return {};
   if (k % 2 == 1) return repairs(draft, places, {kAllowances[k / 2 % 4], k / 8, options.split_boundary}, must_stop);
   const std::size_t i = k / 2;
@@ -89,6 +92,20 @@ bool is_better(const MeshState& now, const MeshState& before) {
   return now.bad != before.bad ? now.bad < before.bad : now.energy < (1 - kLeastGainOfSearch) * before.energy;
 }
 
+/// Keeps the corners of all tetrahedra at the rim of a patch: so faces and edges there stay as they are, for those
+/// beyond, too.
+void keep_rim(Draft& patch) {
+  IdVector<VertexId, std::uint8_t> at_rim(patch.mesh.n_vertices());
+  for (const auto& face : patch.rim) {
+    for (const VertexId v : face) at_rim[v] = 1;
+  }
+  for (const TetId t : patch.mesh.tetrahedra()) {
+    const auto& corners = patch.mesh.corners(t);
+    if (std::none_of(corners.begin(), corners.end(), [&](VertexId v) { return at_rim[v] != 0; })) continue;
+    for (const VertexId v : corners) patch.mobility[v] = Mobility::none;
+  }
+}
+
 /// The corners of a tetrahedron by name.
 std::array<VertexId, 4> names_of(const Draft& draft, TetId t) {
   std::array<VertexId, 4> corners = draft.mesh.corners(t);
@@ -99,8 +116,8 @@ std::array<VertexId, 4> names_of(const Draft& draft, TetId t) {
 
 }  // namespace
 
-bool change_all(Draft& draft, const MustStop& must_stop, Executor* executor) {
-  const std::vector<Filling> fillings = repairs(draft, bad_tetrahedra(draft.mesh, executor), {kAllowance}, must_stop);
+bool change_all(Draft& draft, Criterion criterion, const MustStop& must_stop, Executor* executor) {
+  const std::vector<Filling> fillings = repairs(draft, violating(draft, criterion, executor), {kAllowance}, must_stop);
   std::vector<TetId> changed;
   for (const Filling& f : fillings)
     changed.insert(changed.end(), f.cavity.tetrahedra.begin(), f.cavity.tetrahedra.end());
@@ -118,7 +135,8 @@ bool change_all(Draft& draft, const MustStop& must_stop, Executor* executor) {
 }
 
 bool search(Draft& draft, const SearchOptions& options, const MustStop& must_stop) {
-  const MeshState start = state_of(draft.mesh, kScoreGamma);
+  const MeshState start = state_of(draft, options.criterion, kScoreGamma);
+  const double most_cosine = std::max(options.most_cosine, largest_dihedral_cosine(draft.mesh, nullptr));
   MeshState best = start;
   for (int in_vain = 0; in_vain < options.most_in_vain;) {
     Draft trial = draft;
@@ -126,14 +144,14 @@ bool search(Draft& draft, const SearchOptions& options, const MustStop& must_sto
     for (int length = 0; length < kLongestChain && !changes.empty() && trial.fill(changes); ++length) {
       const auto all = trial.mesh.vertices();
       if (!settle(trial, {all.begin(), all.end()}, must_stop)) return is_better(best, start);
-      if (const MeshState state = state_of(trial.mesh, kScoreGamma); is_better(state, best)) {
+      if (const MeshState state = state_of(trial, options.criterion, kScoreGamma);
+          is_better(state, best) && largest_dihedral_cosine(trial.mesh, nullptr) <= most_cosine) {
         best = state;
         in_vain = 0;
         draft = std::move(trial);
         break;
       }
-      changes = repairs(trial, to_change(trial.mesh, options.small_margin), {kAllowance, 0, options.split_boundary},
-                        must_stop);
+      changes = repairs(trial, to_change(trial, options), {kAllowance, 0, options.split_boundary}, must_stop);
     }
   }
   return is_better(best, start);
@@ -143,7 +161,7 @@ std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
   const TetMesh& mesh = draft.mesh;
   chosen_.clear();
   std::vector<Patch> patches;
-  const std::vector<TetId> needy = to_change(mesh, options_.small_margin, executor);
+  const std::vector<TetId> needy = to_change(draft, options_, executor);
   PatchMaker maker(draft);
   const VertexStars& stars = maker.stars();
   IdVector<TetId, std::uint8_t> is_needy(mesh.n_tetrahedra());
@@ -153,9 +171,14 @@ std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
     const auto tried = tries_.find(names_of(draft, t));
     const int tries = tried == tries_.end() ? 0 : tried->second;
     if (tries >= kTriesOfPlace) continue;
-    std::vector<TetId> around = with_rings(mesh, stars, {t}, kRings + tries);
+    const bool has_rim = options_.criterion != Criterion::well_centered;
+    std::vector<TetId> around = with_rings(mesh, stars, {t}, kRings + tries + (has_rim ? 1 : 0));
     if (std::any_of(around.begin(), around.end(), [&](TetId s) { return patch_of_tet[s] != 0; })) continue;
+    const std::size_t work = around.size() * static_cast<std::size_t>(options_.most_in_vain);
+    if (work > work_) break;
+    work_ -= work;
     patches.push_back(maker.make(around));
+    if (has_rim) keep_rim(patches.back().draft);
     for (const TetId s : around) patch_of_tet[s] = patches.size();
     const auto may_change = [&](VertexId v) {
       const auto link = stars.link(v);

@@ -8,28 +8,32 @@
 #include "temper/detail/executor.hpp"
 #include "tets/optimize/draft.hpp"
 #include "tets/optimize/sweeper.hpp"
+#include "tets/optimize/violations.hpp"
 
 namespace temper::tets {
 
-/// Fills a cavity at each bad tetrahedron, where this lowers the energy, and improves the vertices around. False: there
-/// was nothing to do, or it must stop.
-bool change_all(Draft& draft, const MustStop& must_stop, Executor* executor);
+/// Fills a cavity at each tetrahedron that violates the criterion, where this lowers the energy, and improves the
+/// vertices around. False: there was nothing to do, or it must stop.
+bool change_all(Draft& draft, Criterion criterion, const MustStop& must_stop, Executor* executor);
 
 struct SearchOptions {
+  Criterion criterion = Criterion::well_centered;
   int most_in_vain = 0;     ///< Trials without success, after which the search ends
   double small_margin = 0;  ///< Without bad tetrahedra it looks at those with a smaller margin
   bool split_boundary = false;
   bool search_each = false;  ///< Each place has its own searches, not along with those nearby
+  double most_cosine = 1;    ///< Of a dihedral angle; more only where it was more before
 };
 
-/// Tries chains of changes at the bad tetrahedra, or those with small margins, and takes the chains that leave fewer
-/// bad ones, or less energy. Returns whether there was one.
+/// Tries chains of changes at tetrahedra that violate the criterion, or those with small margins. Takes the chains that
+/// leave fewer of them, or less energy. Returns whether there was one.
 bool search(Draft& draft, const SearchOptions& options, const MustStop& must_stop);
 
 /// The places of a mesh that need a search, and how often each was in vain.
 class Places {
  public:
-  explicit Places(const SearchOptions& options) : options_(options) {}
+  /// `work`: the most tetrahedra that all searches may try. Places for which too few are left get no patch.
+  Places(const SearchOptions& options, std::size_t& work) : options_(options), work_(work) {}
   /// Patches around tetrahedra where a search may help. They share no tetrahedron. A place where searches were in vain
   /// gets a larger patch, and after some none.
   [[nodiscard]] std::vector<Patch> choose(const Draft& draft, Executor* executor);
@@ -41,6 +45,7 @@ class Places {
  private:
   using Corners = std::array<VertexId, 4>;  ///< of a tetrahedron, by name, sorted
   SearchOptions options_;
+  std::size_t& work_;
   std::map<Corners, int> tries_;
   std::vector<std::vector<Corners>> chosen_;  // of each patch
 };

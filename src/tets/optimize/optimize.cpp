@@ -4,11 +4,18 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "base/sine_cosine.hpp"
 #include "optimize/options/settings.hpp"
 #include "optimize/run/run_of.hpp"
+#include "temper/detail/convex.hpp"
+#include "temper/feasibility.hpp"
+#include "temper/tets/criterion.hpp"
+#include "temper/tets/weights.hpp"
 #include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/hot_sweeps.hpp"
 #include "tets/optimize/local_search.hpp"
@@ -31,13 +38,11 @@ constexpr int kLastSweeps = 100;
 constexpr int kRoundsInVain = 4;
 // The most sweeps for a HOT energy.
 constexpr int kMostHotSweeps = 32;
-// Tetrahedra with smaller margins stand in the way of lower errors: without trials there, the error of a cube becomes
-// 1.10 times that of the input, not 0.80.
-constexpr double kMarginForAccuracy = 0.01;
+// Tetrahedra that trials of repairs may try, some seconds of work.
+constexpr std::size_t kRepairWork = 100'000, kRepairWorkPerTet = 20;
+// No dihedral angle becomes less than about 0.8 of the least one: 1 − cosine falls to this part of it at most.
+constexpr double kAngleKept = 0.7;
 
-[[nodiscard]] bool lowers_errors(const OptimizeOptions& o) {
-  return o.scheme == Scheme::vertex || o.scheme == Scheme::cell;
-}
 [[nodiscard]] bool lowers_hot(const OptimizeOptions& o) { return o.energy == EnergyKind::F; }
 [[nodiscard]] bool changes_connectivity(const OptimizeOptions& o) {
   return o.unknowns == temper::Unknowns::positions_and_weights && o.flips != Flips::none && o.tets.repair_trials > 0;
@@ -53,15 +58,54 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
 
   OptimizeReport run() {
     report.objective_before = objective_of(draft_.mesh);
+    if (error_ != nullptr) unit_ = error_->errors(draft_.mesh);
+    most_cosine_ = limit_of_angles(draft_.mesh);
     record();
-    if ((error_ || lowers_hot(options_)) && best_bad_ == 0) input_ = draft_;
-    if (anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma) && changes_connectivity(options_)) repair();
-    if (!stopped_early() && lowers_errors(options_)) lower_errors();
+    if (best_bad_ == 0) input_ = draft_;
+    if (criterion_ == Criterion::well_centered || best_bad_ > 0) make_good();
+    if (!stopped_early() && !lowers_hot(options_)) lower_errors();
     if (!stopped_early() && lowers_hot(options_)) lower_hot();
     return end();
   }
 
  private:
+  /// Makes the mesh keep the criterion. Weights alone come first if the solver needs less than well-centered
+  /// tetrahedra, then patches where weights do not suffice. For unknowns in cells sweeps go before: errors are less if
+  /// most orthocenters are inside.
+  void make_good() {
+    if (criterion_ == Criterion::coefficients && made_good_by_weights()) return;
+    const bool goes_on = anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma);
+    if (criterion_ == Criterion::distances && (best_bad_ == 0 || made_good_by_weights())) return;
+    if (goes_on && changes_connectivity(options_)) repair();
+    if (criterion_ != Criterion::well_centered && !stopped_early()) (void)takes_least_weights();
+  }
+  bool made_good_by_weights() {
+    const Draft start = draft_;
+    if (takes_least_weights()) return true;
+    if (!changes_connectivity(options_)) return false;
+    repair_in_patches();
+    if (best_bad_ == 0) {
+      (void)takes_least_weights();
+      return true;
+    }
+    if (!stopped_early()) draft_ = start;
+    return stopped_early();
+  }
+  /// Gives the best mesh the least weights that keep the criterion, or those that violate it little. Says whether it is
+  /// kept now.
+  bool takes_least_weights() {
+    if (options_.unknowns == temper::Unknowns::positions || !hooks_.solvers.lp || !hooks_.solvers.convex) return false;
+    draft_ = *best_.kept;
+    WeightOptions wanted;
+    wanted.goal = WeightGoal::least;
+    wanted.constraints = criterion_ == Criterion::distances ? Constraints::distances : Constraints::coefficients;
+    const auto found = find_weights(draft_.mesh, *hooks_.solvers.lp(), wanted, hooks_.solvers.convex().get());
+    if (!found || found->weights.size() != draft_.mesh.n_vertices()) return false;
+    for (const VertexId v : draft_.mesh.vertices()) draft_.mesh.set_weight(v, found->weights[v]);
+    end_round(true);
+    return best_bad_ == 0;
+  }
+
   /// Sweeps along the schedule of γ. False: the run must end.
   bool anneal(double first_gamma) {
     const auto all = draft_.mesh.vertices();  // by name, too: the connectivity is that of the input
@@ -97,25 +141,27 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
     const auto must_stop = [this](double) { return is_stopped(0); };
     for (int in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
       const std::size_t before = best_bad_;
-      if (!may_sweep() || !change_all(draft_, must_stop, hooks_.executor)) break;
+      if (!may_sweep() || !change_all(draft_, criterion_, must_stop, hooks_.executor)) break;
       end_round(false);
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
+    repair_in_patches();
+  }
+  void repair_in_patches() {
     draft_ = *best_.kept;
     const int trials = options_.tets.repair_trials;
     const double small_margin = options_.tets.small_margin;
     const bool each = options_.tets.patches == Patches::each;
-    repair_patches({trials, 0, false, each});
-    if (options_.boundary == BoundaryVertices::split && best_bad_ > 0) repair_patches({trials, 0, true, each});
-    if (best_bad_ > 0) return;
-    if (small_margin > 0)
-      repair_patches({trials, small_margin, false, each});
-    else if (lowers_errors(options_))
-      repair_patches({(trials + 3) / 4, kMarginForAccuracy, false, each});
+    for (const double most_cosine : {most_cosine_, 1.0}) {  // smaller angles only if the criterion asks for them
+      if (best_bad_ > 0) repair_patches({criterion_, trials, 0, false, each, most_cosine});
+      if (best_bad_ > 0 && options_.boundary == BoundaryVertices::split)
+        repair_patches({criterion_, trials, 0, true, each, most_cosine});
+    }
+    if (best_bad_ == 0 && small_margin > 0) repair_patches({criterion_, trials, small_margin, false, each});
   }
   void repair_patches(const SearchOptions& options) {
     if (options.most_in_vain == 0) return;
-    for (Places places(options); may_sweep();) {
+    for (Places places(options, repair_work_); may_sweep();) {
       std::vector<Patch> patches = places.choose(draft_, hooks_.executor);
       if (patches.empty()) return;
       std::vector<std::uint8_t> is_better(patches.size(), 0);
@@ -132,12 +178,18 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
       });
       std::vector<Patch> chosen;
       for (std::size_t i = 0; i < patches.size(); ++i) {
-        if (is_better[i] == 0) continue;
-        places.succeeded(i);
-        chosen.push_back(std::move(patches[i]));
+        if (is_better[i] != 0) chosen.push_back(std::move(patches[i]));
       }
       if (!chosen.empty() && !put_back(chosen, draft_)) return;
       end_round(true);
+      if (stopped_early()) return;
+      if (report.history.back().bad > best_bad_) {  // patches together violate the criterion
+        draft_ = *best_.kept;
+        continue;
+      }
+      for (std::size_t i = 0; i < patches.size(); ++i) {
+        if (is_better[i] != 0) places.succeeded(i);
+      }
     }
   }
   void end_round(bool takes_equal) {
@@ -153,26 +205,29 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
     best_.measure = measure(draft_.mesh);
     if (input_.mesh.n_vertices() == 0 || is_stopped(0)) return;
     const double of_input = measure(input_.mesh);
-    if (best_.is_beaten_by(of_input)) best_ = {std::move(input_), of_input};
+    if (best_.is_beaten_by(of_input)) best_ = {input_, of_input};
   }
   /// Lowers the errors of the scheme. The best mesh is the one with the least error.
   void lower_errors() {
+    if (error_ != nullptr && unit_.empty()) unit_ = error_->errors(best_.kept->mesh);  // has no negative coefficient
     const auto error_of = [this](const TetMesh& mesh) {
-      const std::vector<double> errors = error_ ? error_->errors(mesh) : std::vector{0.0};
-      return errors.empty() ? HUGE_VAL : errors[0];
+      if (unit_.empty()) return 0.0;
+      const std::vector<double> errors = error_->errors(mesh);
+      return errors.empty() ? HUGE_VAL : std::sqrt(log_objective(errors, unit_, 1, 0).mean);
     };
     begin_phase(error_of);
-    const DiscretizationError* error = best_bad_ == 0 && error_ && error_->has_gradient() ? error_ : nullptr;
-    Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme), error, hooks_.executor);
+    const bool has_gradient = !unit_.empty() && error_->has_gradient();
+    const AccuracyErrors lowered = has_gradient ? AccuracyErrors{error_, unit_} : AccuracyErrors{};
+    Accuracy accuracy(draft_.mesh, draft_.mobilities(), accuracy_model(options_.scheme), {criterion_, most_cosine_},
+                      lowered, hooks_.executor);
     for (int i = 0; i < options_.tets.accuracy_steps && may_sweep(); ++i) {
       if (!accuracy.descend([this](double fraction) { return is_stopped(fraction); })) break;
       ++report.sweeps;
-      record(error != nullptr ? Objective::solver_error : Objective::accuracy, accuracy.measure());
-      if (error == nullptr) continue;
-      keep_if_best(accuracy.measure() * accuracy.measure());
+      record(lowered.model != nullptr ? Objective::solver_error : Objective::accuracy, accuracy.measure());
+      if (lowered.model != nullptr) keep_if_best(accuracy.measure());
     }
     // A run that must stop does not measure any more: it keeps the mesh before these steps.
-    if (error == nullptr && !(error_ && stopped_early())) keep_if_best(error_of(draft_.mesh));
+    if (lowered.model == nullptr && !(error_ && stopped_early())) keep_if_best(error_of(draft_.mesh));
   }
 
   /// Lowers a HOT energy. The best mesh is the one with the least.
@@ -194,6 +249,12 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
                                 : state_of(mesh, kLastGamma, hooks_.executor).energy;
   }
 
+  /// The largest cosine that dihedral angles may get.
+  [[nodiscard]] double limit_of_angles(const TetMesh& mesh) const {
+    const double of_input = largest_dihedral_cosine(mesh, hooks_.executor);
+    if (options_.guard.angle == 0) return 1 - kAngleKept * (1 - of_input);
+    return std::max(of_input, sine_cosine(std::numbers::pi / 180 * options_.guard.angle).cosine);
+  }
   bool is_stopped(double fraction) {
     ask(fraction, [](Progress&) {});
     return stopped_early();
@@ -202,7 +263,7 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
   /// Measures the mesh, and keeps it if it is the best so far: by the number of bad tetrahedra, and of equals the last
   /// one if `takes_equal`, else the first one.
   void record(bool takes_equal = true) {
-    const auto [energy, bad] = state_of(draft_.mesh, gamma_, hooks_.executor);
+    const auto [energy, bad] = state_of(draft_, criterion_, gamma_, hooks_.executor);
     keep_if_best(static_cast<double>(bad), takes_equal);
     best_bad_ = static_cast<std::size_t>(best_.measure);
     if (!stopped_early()) RunOf::record({.energy = energy, .bad = bad, .length_parameter = gamma_});
@@ -221,7 +282,17 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
       });
   }
 
+  /// Says whether a good input has a smaller error of some kind than the best mesh.
+  [[nodiscard]] bool is_input_better() const {
+    if (input_.mesh.n_vertices() == 0 || unit_.empty() || stopped_early()) return false;
+    const std::vector<double> errors = error_->errors(best_.kept->mesh);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      if (errors[i] > unit_[i]) return true;
+    }
+    return errors.empty();
+  }
   OptimizeReport end() {
+    if (is_input_better()) best_.kept = std::move(input_);
     Draft best = *std::move(best_.kept);
     report.flips = best.flips;
     report.origins = origins_of(best);
@@ -249,8 +320,12 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
   TetMesh& result_;  // empty until the end: best_ has the mesh
   std::size_t n_before_ = result_.n_vertices();
   const DiscretizationError* error_ =  // absent for large meshes
-      n_before_ <= static_cast<std::size_t>(options_.tets.most_error_vertices) ? hooks_.error.get() : nullptr;
+      n_before_ <= static_cast<std::size_t>(options_.tets.most_error_vertices) ? hooks_.solvers.error.get() : nullptr;
+  Criterion criterion_ = lowers_hot(options_) ? Criterion::well_centered : criterion_of(options_.scheme);
   HotEnergy hot_ = kHotEnergies[static_cast<std::size_t>(options_.star)];
+  std::vector<double> unit_;  // the errors of the input
+  double most_cosine_ = 1;
+  std::size_t repair_work_ = kRepairWork + kRepairWorkPerTet * result_.n_tetrahedra();
   Draft draft_;
   Best<Draft> best_;
   double gamma_ = kFirstGamma;
