@@ -211,6 +211,8 @@ std::string halves_text(const Mesh& mesh) {
 }
 
 void show_places_of_file(Quality& quality, const Input& input) {
+  EdgePlace& least = quality.min_coefficient_place;
+  least.at = place_in_file(input.file, least.at);
   for (WorstTriangle& worst : quality.worst) worst.at = place_in_file(input.file, worst.at);
 }
 

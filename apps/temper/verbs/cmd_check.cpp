@@ -154,6 +154,8 @@ class Checks {
     for (WorstTriangle& worst : measured.worst) {
       if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
     }
+    EdgePlace& least = measured.min_coefficient_place;
+    if (s_.metric) least.at = s_.metric->from_metric(least.at);
     return measured;
   }
   [[nodiscard]] tets::Quality measure(TetInput& input) const {

@@ -32,7 +32,8 @@ TEST_F(Check, JsonHasExactlyTheKeysOfTheReport) {
   for (const auto& item : report.items()) keys.push_back(item.key());
   std::vector<std::string> all = {"schema", "file"};
   for (const QualityMeasure& measure : quality_measures()) all.emplace_back(measure.key);
-  for (const char* key : {"energy", "histograms", "worst", "requirements"}) all.emplace_back(key);
+  for (const char* key : {"energy", "min_coefficient_place", "histograms", "worst", "requirements"})
+    all.emplace_back(key);
   EXPECT_EQ(keys, all);
   std::vector<std::string> names;
   for (const auto& item : report["energy"].items()) {
@@ -250,7 +251,8 @@ TEST_F(Check, JsonOfTetrahedraHasExactlyTheKeysOfTheReport) {
   std::vector<std::string> keys, all = {"schema", "file"};
   for (const auto& item : report.items()) keys.push_back(item.key());
   for (const tets::QualityMeasure& m : tets::quality_measures()) all.emplace_back(m.key);
-  for (const char* key : {"histograms", "worst", "requirements"}) all.emplace_back(key);
+  for (const char* key : {"min_coefficient_place", "min_distance_place", "histograms", "worst", "requirements"})
+    all.emplace_back(key);
   EXPECT_EQ(keys, all);
   EXPECT_EQ(report["regions"], 2);
   EXPECT_EQ(report["worst"][0]["tetrahedron"], 1);
