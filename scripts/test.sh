@@ -95,12 +95,12 @@ PYTHON
 }
 
 # A library that is missing silently drops the tests that need it; here nothing may be dropped.
-every_test_program_is_there() {  # BUILD
+every_test_program_is_there() {  # BUILD LINES: which lines with temper_test, as sed names them
   local name missing=0 count=0
   while read -r name; do
     count=$((count + 1))
     find "$1/tests" -name "$name" -type f -perm -u+x | grep -q . || { echo "not built: $name"; missing=1; }
-  done < <(git ls-files 'tests/*CMakeLists.txt' | xargs sed -n 's/^ *temper_test(\([A-Za-z0-9_]*\).*/\1/p')
+  done < <(git ls-files 'tests/*CMakeLists.txt' | xargs sed -n "$2"' s/^ *temper_test(\([A-Za-z0-9_]*\).*/\1/p')
   ((missing == 0 && count > 0)) && echo "$count programs"
 }
 
@@ -159,9 +159,8 @@ consumer_subdirectory() (
 # All tests, by the other compiler, and what runs on threads: nothing else, in a project that holds temper in a subdirectory.
 sanitizers() {
   if stage "build (sanitizers, clang++)" configure_and_build asan; then
-    stage "every test program is there" every_test_program_is_there build/asan
-    # Tests that compare the bytes and figures of whole runs run in the optimized build. Other tests reach the same code.
-    suite "tests (sanitizers)" build/asan -E '^(claims|golden.*|regression_accuracy_meshes|unit_optimize_bytes_[0-9]+)$'
+    stage "every test program is there" every_test_program_is_there build/asan '/OPTIMIZED_ALONE/!'
+    suite "tests (sanitizers)" build/asan
   fi
   if stage "consumer: subdirectory (ThreadSanitizer)" consumer_subdirectory; then
     suite "threads (ThreadSanitizer)" build/subdirectory -R '^(subdirectory_core|threads_[01])$'
@@ -210,6 +209,7 @@ stage "headers, each alone" tests/consumer/headers.sh
 stage "clang-tidy on what has changed" tidy
 # Those tests whose findings depend on how the library is optimized.
 if stage "build (optimized, -Werror)" configure_and_build dev --target optimized; then
+  stage "every test of the optimized build is there" every_test_program_is_there build/dev /OPTIMIZED/
   stage "core without exceptions and RTTI" core_without_exceptions
   stage "instruction sets keep to themselves" python3 scripts/check_instruction_sets.py build/dev
   stage "the Python module is tested" grep -q 'add_test.*python.*pytest' build/dev/tests/python/CTestTestfile.cmake

@@ -1,7 +1,6 @@
 // A large Delaunay mesh of random points in a non-convex polygon ends well-centered, every triangle.
 #include <gtest/gtest.h>
 
-#include "support/sanitizers.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
@@ -9,8 +8,7 @@
 namespace temper::test {
 namespace {
 
-// Sanitizers make the run twenty times slower: what they look for shows in a smaller mesh.
-constexpr std::size_t kVertices = TEMPER_SANITIZED ? 4000 : 100000;
+constexpr std::size_t kVertices = 100000;
 
 TEST(RandomMesh, OfANonConvexPolygonEndWellCentered) {
   auto mesh = random_mesh({.vertices = kVertices});

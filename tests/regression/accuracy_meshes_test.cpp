@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <string>
 
-#include "support/sanitizers.hpp"
 #include "temper/errors.hpp"
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
@@ -24,8 +23,7 @@ constexpr const char* kMeshesForAccuracy[] = {
     "sfepy_circles_in_square.vtk", "sfepy_its2D.mesh",          "sfepy_osteonT1_11.mesh",
     "skfem_annulus.msh",           "skfem_cylinder_stokes.msh", "skfem_square.msh"};
 
-// Sanitizers look at memory, for which small meshes do.
-constexpr std::size_t kMostVertices = TEMPER_SANITIZED ? 200 : 2000;
+constexpr std::size_t kMostVertices = 2000;
 
 struct Errors {
   double star1 = 0, poisson = 0, poisson_max = 0, flux = 0;
@@ -132,8 +130,8 @@ TEST(AccuracyOfPublicMeshes, KeepsThePromisesOfEachSchemeOnFieldsThatWereHeldBac
       expect_at_most(errors, promise.worst);
       means.add(errors);
     }
-    ASSERT_EQ(means.meshes, TEMPER_SANITIZED ? 6 : 9);
-    if (means.meshes == 9) expect_at_most(means.mean(), promise.mean);
+    ASSERT_EQ(means.meshes, 9);
+    expect_at_most(means.mean(), promise.mean);
   }
 }
 

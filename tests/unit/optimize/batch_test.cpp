@@ -14,7 +14,6 @@
 #include "optimize/batch/star_batch.hpp"
 #include "optimize/stages/driver.hpp"
 #include "support/lattice.hpp"
-#include "support/sanitizers.hpp"
 #include "temper/detail/instruction_set.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
@@ -298,7 +297,7 @@ TEST(InstructionSets, RunsOfEveryEnergyGiveTheSameBytes) {
   const KeepInstructionSet keep;
   for (const EnergyInfo& energy : energies()) {
     for (int star = 0; star <= 2; ++star) {
-      Mesh start = swept_mesh(TEMPER_SANITIZED ? 16 : 30, 2);
+      Mesh start = swept_mesh(30, 2);
       for (const VertexId v : start.vertices()) start.set_weight(v, energy.positions_alone ? 0 : start.weight(v));
       std::optional<Mesh> first;
       for (const InstructionSet set : instruction_sets()) {
