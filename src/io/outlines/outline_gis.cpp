@@ -61,12 +61,12 @@ class GisReader {
     if (shape == nullptr) return;
     JsonValue value = json(Type::object), properties = json(Type::object);
     value.string = text("feature ", gdal_->OGR_F_GetFID(feature), " of ", layer);
-    constexpr std::array<std::string_view, 4> kProperties = {"name", "region", "size", "tag"};
+    constexpr std::array<std::string_view, 4> kKeptNames = {"name", "region", "size", "tag"};
     for (int i = 0; i < gdal_->OGR_F_GetFieldCount(feature); ++i) {
       if (gdal_->OGR_F_IsFieldSetAndNotNull(feature, i) == 0) continue;
       void* const field = gdal_->OGR_F_GetFieldDefnRef(feature, i);
       std::string name = gdal_->OGR_Fld_GetNameRef(field);
-      if (const std::string lower = lower_case(name); std::ranges::find(kProperties, lower) != kProperties.end())
+      if (const std::string lower = lower_case(name); std::ranges::find(kKeptNames, lower) != kProperties.end())
         name = lower;
       constexpr int kInteger = 0, kReal = 2, kInteger64 = 12;
       const int type = gdal_->OGR_Fld_GetType(field);

@@ -10,7 +10,7 @@ namespace temper {
 namespace {
 
 // Square around vertex 4; triangle t has corners t, t + 1, 4; see inputs.hpp.
-Mesh fan() { return test::built(test::fan()); }
+Mesh mesh_of_fan() { return test::built(test::fan()); }
 
 void expect_found(const Mesh& mesh, const std::string& message) {
   const auto found = mesh.validate();
@@ -18,10 +18,10 @@ void expect_found(const Mesh& mesh, const std::string& message) {
   EXPECT_EQ(*found, message);
 }
 
-TEST(Validate, FindsNothingInAMesh) { EXPECT_EQ(fan().validate(), std::nullopt); }
+TEST(Validate, FindsNothingInAMesh) { EXPECT_EQ(mesh_of_fan().validate(), std::nullopt); }
 
 TEST(Validate, FindsACornerThatIsNoVertex) {
-  Mesh mesh = fan();
+  Mesh mesh = mesh_of_fan();
   MeshEditor(mesh).set_corner(HalfedgeId(4), VertexId(5));
   expect_found(mesh, "halfedge 4 starts at no vertex");
   MeshEditor(mesh).set_corner(HalfedgeId(4), VertexId());
@@ -29,7 +29,7 @@ TEST(Validate, FindsACornerThatIsNoVertex) {
 }
 
 TEST(Validate, FindsACornerOfAnotherTriangle) {
-  Mesh mesh = fan();
+  Mesh mesh = mesh_of_fan();
   MeshEditor(mesh).set_corner(HalfedgeId(4), VertexId(0));
   expect_found(mesh, "halfedge 4 and its twin join different vertices");
 }
@@ -57,45 +57,45 @@ TEST(Validate, PassesOverErasedTrianglesWhoseCornersWereMended) {
 }
 
 TEST(Validate, FindsTwinsThatAreNotMutual) {
-  Mesh mesh = fan();
+  Mesh mesh = mesh_of_fan();
   const HalfedgeId h = mesh.find_halfedge(VertexId(1), VertexId(4)), twin = mesh.twin(h);
   MeshEditor(mesh).link(twin, HalfedgeId());
   expect_found(mesh, "halfedge " + std::to_string(h.index) + " is not the twin of its twin");
 }
 
 TEST(Validate, FindsTwinsOfDifferentVertices) {
-  Mesh mesh = fan();
+  Mesh mesh = mesh_of_fan();
   MeshEditor(mesh).link(HalfedgeId(0), HalfedgeId(6));  // bottom and top of the square
   expect_found(mesh, "halfedge 0 and its twin join different vertices");
 }
 
 TEST(Validate, FindsAMissingOutgoingHalfedge) {
-  Mesh mesh = fan();
+  Mesh mesh = mesh_of_fan();
   MeshEditor(mesh).set_outgoing(VertexId(2), HalfedgeId());
   expect_found(mesh, "vertex 2 has no halfedge");
-  mesh = fan();
+  mesh = mesh_of_fan();
   MeshEditor(mesh).set_outgoing(VertexId(2), HalfedgeId(99));
   expect_found(mesh, "vertex 2 has no halfedge");
-  mesh = fan();
+  mesh = mesh_of_fan();
   MeshEditor(mesh).add_vertex({3, 3, 0});
   expect_found(mesh, "vertex 5 has no halfedge");
 }
 
 TEST(Validate, FindsAForeignOutgoingHalfedge) {
-  Mesh mesh = fan();
+  Mesh mesh = mesh_of_fan();
   MeshEditor(mesh).set_outgoing(VertexId(0), HalfedgeId(1));
   expect_found(mesh, "vertex 0 has a foreign halfedge in its star");
 }
 
 TEST(Validate, FindsABoundaryStarThatDoesNotBeginOnTheBoundary) {
-  Mesh mesh = fan();
+  Mesh mesh = mesh_of_fan();
   const VertexId v(1);
   MeshEditor(mesh).set_outgoing(v, mesh.rotate(mesh.outgoing(v)));
   expect_found(mesh, "vertex 1 does not reach all its triangles");
 }
 
 TEST(Validate, FindsAnUnlinkedEdge) {
-  Mesh mesh = fan();
+  Mesh mesh = mesh_of_fan();
   const HalfedgeId h = mesh.find_halfedge(VertexId(1), VertexId(4)), twin = mesh.twin(h);
   MeshEditor(mesh).link(h, HalfedgeId());
   MeshEditor(mesh).link(twin, HalfedgeId());
@@ -103,7 +103,7 @@ TEST(Validate, FindsAnUnlinkedEdge) {
 }
 
 TEST(Validate, FindsAnEdgeConstrainedOnOneSide) {
-  Mesh mesh = fan();
+  Mesh mesh = mesh_of_fan();
   const HalfedgeId h = mesh.find_halfedge(VertexId(1), VertexId(4)), twin = mesh.twin(h);
   MeshEditor(mesh).link(h, HalfedgeId());
   mesh.set_constrained(h, true);  // the twin does not hear of it
@@ -112,16 +112,16 @@ TEST(Validate, FindsAnEdgeConstrainedOnOneSide) {
 }
 
 TEST(Validate, FindsNumbersThatAreNotFinite) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
-  for (const WeightedPoint& bad : {WeightedPoint{kNaN, 0, 0}, {0, -kInf, 0}, {0, 0, kInf}, {0, 0, kNaN}}) {
-    Mesh mesh = fan();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const WeightedPoint& bad : {WeightedPoint{nan, 0, 0}, {0, -inf, 0}, {0, 0, inf}, {0, 0, nan}}) {
+    Mesh mesh = mesh_of_fan();
     mesh.set_point(VertexId(4), bad);
     expect_found(mesh, "vertex 4 is not finite");
   }
 }
 
 TEST(Validate, FindsTrianglesThatAreNotCounterClockwise) {
-  Mesh mesh = fan();
+  Mesh mesh = mesh_of_fan();
   mesh.set_position(VertexId(4), {0, -1});  // on the bottom edge
   expect_found(mesh, "triangle 0 is not counter-clockwise");
   mesh.set_position(VertexId(4), {0, 1 + 0x1p-52});  // just above the top

@@ -22,7 +22,7 @@ struct Shape {
   double angle = 180, largest = 0, areas = 1, edge = 1e9, shortest = 1e9, time = 1e9;
 };
 
-double area(const Mesh& mesh, TriangleId t) {
+double area_of(const Mesh& mesh, TriangleId t) {
   const auto [a, b, c] = mesh.points(t);
   return 0.5 * cross(b.position() - a.position(), c.position() - a.position());
 }
@@ -41,9 +41,9 @@ Shape shape(const Mesh& mesh, const Depth& depth) {
     s.largest = std::max(s.largest, angle);
     s.shortest = std::min(s.shortest, l);
     const double speed = std::sqrt(9.81 * std::max((depth(a) + depth(b) + depth(c)) / 3, 1.0));
-    s.time = std::min(s.time, 2 * area(mesh, t) / l / speed);
+    s.time = std::min(s.time, 2 * area_of(mesh, t) / l / speed);
     if (mesh.is_boundary(h)) continue;
-    const double here = area(mesh, t), there = area(mesh, Mesh::triangle(mesh.twin(h)));
+    const double here = area_of(mesh, t), there = area_of(mesh, Mesh::triangle(mesh.twin(h)));
     s.areas = std::max(s.areas, here / there);
     s.edge = std::min(s.edge, l / std::sqrt(4 / std::numbers::sqrt3 * (here + there) / 2));
   }
