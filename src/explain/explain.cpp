@@ -47,6 +47,7 @@ struct BadTriangle {
 
 std::vector<BadTriangle> worst_first(const Mesh& mesh, const std::vector<TriangleId>& triangles) {
   std::vector<BadTriangle> bad;
+  bad.reserve(triangles.size());
   for (const TriangleId t : triangles) {
     bad.push_back({measure_triangle(mesh, t).margin(), middle_of(mesh, t), t});
   }

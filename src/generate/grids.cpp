@@ -24,6 +24,7 @@ Vec2 on_circle(double radius, double turn) {
 
 std::vector<Vec2> ring(double radius, int n) {
   std::vector<Vec2> points;
+  points.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) points.push_back(on_circle(radius, static_cast<double>(i) / n));
   return points;
 }
