@@ -124,7 +124,7 @@ class FlatFlips {
   [[nodiscard]] Corners turned_to_middle(std::size_t t) const {
     Corners corners = file_.triangles[t], best = corners;
     for (int i = 0; i < 2; ++i) {
-      std::ranges::rotate(corners, corners.begin() + 1);
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
       if (length(at(corners[2]) - at(corners[0])) > length(at(best[2]) - at(best[0]))) best = corners;
     }
     return best;

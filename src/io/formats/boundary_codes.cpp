@@ -60,7 +60,7 @@ NodeString boundary_nodes(const MeshFile& f, const std::set<DirectedEdge>& edges
   for (NodeString& s : strings) {
     if (s.front() != s.back()) continue;
     s.pop_back();
-    std::ranges::rotate(s, std::ranges::min_element(s, {}, sum));
+    std::rotate(s.begin(), std::ranges::min_element(s, {}, sum), s.end());
   }
   std::ranges::stable_sort(strings, {}, [&](const NodeString& s) { return sum(s.front()); });
   NodeString nodes;

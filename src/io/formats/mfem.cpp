@@ -83,7 +83,7 @@ class MfemReader {
   template <int dimension, class Check>
   void cells(std::string_view several, Cells<dimension>& cells, RunLength& numbers, RunLength& lines,
              const Check& check) {
-    const std::size_t n = scanner_.count(several, 2 * (dimension + 3));
+    const std::size_t n = scanner_.count(several, 2 * std::size_t{dimension + 3});
     cells.corners.reserve(n);
     cells.tags.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {

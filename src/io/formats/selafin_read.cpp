@@ -215,7 +215,7 @@ class SelafinReader {
 }  // namespace
 
 std::string selafin_name(std::string_view record) {
-  const std::string whole(record.substr(0, record.find_last_not_of(' ') + 1));
+  std::string whole(record.substr(0, record.find_last_not_of(' ') + 1));
   if (record[kSelafinNameBytes - 1] != ' ' && record[kSelafinNameBytes] != ' ') return whole;
   const std::string_view unit = trimmed(record.substr(kSelafinNameBytes));
   if (unit.empty()) return whole;

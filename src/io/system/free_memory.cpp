@@ -45,9 +45,10 @@ std::optional<std::uint64_t> left_in_group(const std::string& folder, const Grou
 }
 
 std::optional<std::uint64_t> left_up_to_root(const std::string& root, std::string group, const GroupFiles& files) {
+  const std::string all_groups = root + files.root;
   std::optional<std::uint64_t> least;
   for (;; group.erase(group.rfind('/'))) {
-    take_least(least, left_in_group(root + files.root + group, files));
+    take_least(least, left_in_group(all_groups + group, files));
     if (group.rfind('/') == std::string::npos) return least;
   }
 }
