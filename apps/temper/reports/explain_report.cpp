@@ -62,7 +62,7 @@ constexpr const char* kKeepsWeights =
     "The mesh has quadrilaterals, so weights cannot change. Vertices have to move. Next: temper optimize IN -o OUT\n";
 
 std::string headline(const Explanation& e, const Input& input) {
-  const std::string text = fmt::format("{}: {}\n", input.path, well_centered<Triangles>(e.bad, e.triangles));
+  std::string text = fmt::format("{}: {}\n", input.path, well_centered<Triangles>(e.bad, e.triangles));
   if (e.bad == 0) return text;
   if (e.verdict == Feasibility::undecided && count_quadrilaterals(input.mesh()) > 0) return text + kKeepsWeights;
   return text + on_weights<Triangles>(e.verdict, e.changed, input.mesh().n_vertices(), e.margin);

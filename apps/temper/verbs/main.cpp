@@ -25,7 +25,7 @@
 namespace temper::app {
 
 std::span<const Verb> verbs() {
-  static const auto kVerbs = std::to_array<Verb>({
+  static const auto all = std::to_array<Verb>({
       {"check", "report on the quality of a mesh, and test requirements", run_check},
       {"optimize", "make " + any_elements() + " well-centered: move vertices, change weights, flip edges",
        run_optimize},
@@ -41,7 +41,7 @@ std::span<const Verb> verbs() {
       {"example", "make an example mesh", run_example},
       {"paper", "make the figures of the paper again, or repeat the steps of a run", run_paper},
   });
-  return kVerbs;
+  return all;
 }
 
 namespace {
