@@ -11,6 +11,7 @@
 #include "temper/detail/connectivity.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/detail/necessity.hpp"
+#include "temper/detail/optimize_table.hpp"
 #include "temper/explain.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/tets/explain.hpp"
@@ -341,6 +342,14 @@ py::object explain_tetrahedra(const PyTetMesh& self, std::size_t whole) {
   return report_to_python(tets::ExplanationReport{loaded->mesh, why});
 }
 
+/// Null of a target whose criterion is well_centered.
+template <class AnyMesh>
+py::object explain_duals_of(const AnyMesh& mesh, const std::string& target, std::size_t most) {
+  const Criterion criterion = criterion_of_target(or_raise(target_named(target)));
+  if (criterion == Criterion::well_centered) return py::none();
+  return report_to_python(aside([&] { return explain_duals(mesh, criterion, most); }));
+}
+
 }  // namespace
 
 void bind_weights(py::module_& m) {
@@ -349,6 +358,12 @@ void bind_weights(py::module_& m) {
   bind_necessity(m);
   m.def("explain", explain_mesh);
   m.def("tet_explain", explain_tetrahedra);
+  m.def("explain_duals", [](const PyMesh& self, const std::string& target, std::size_t most) {
+    return explain_duals_of(*self.read(), target, most);
+  });
+  m.def("tet_explain_duals", [](const PyTetMesh& self, const std::string& target, std::size_t most) {
+    return explain_duals_of(self.loaded->mesh, target, most);
+  });
 }
 
 }  // namespace temper::python

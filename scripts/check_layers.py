@@ -43,7 +43,7 @@ LAYERS = {
     # The tables of reports, for JSON, Python, npm and the schema.
     "report": _BELOW + ["size", "energy", "feasibility", "optimize", "quality", "explain", "dec"],
     # A library of its own, with the rules of the core: meshes of tetrahedra, on tables, reports and linear programs.
-    "tets": _BELOW + ["regularity", "feasibility", "quality", "dec", "draw", "optimize", "report"],
+    "tets": _BELOW + ["regularity", "feasibility", "quality", "explain", "dec", "draw", "optimize", "report"],
     # A library of its own: sees the public headers of the core and of tets, and no other folder of src/.
     "io": _BELOW + ["projection", "location", "size", "feasibility", "quality", "dec", "mesher", "tets"],
     "lp": _BELOW + ["feasibility"],

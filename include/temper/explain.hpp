@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "temper/detail/criterion.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/detail/ids.hpp"
 #include "temper/detail/necessity.hpp"
@@ -152,6 +153,29 @@ struct Explanation {
 [[nodiscard]] std::string reason_text(const Mesh& mesh, const Reason& reason, const InputNames* names = nullptr);
 /// A cure in words, in one sentence.
 [[nodiscard]] std::string cure_text(const Mesh& mesh, const Cure& cure, const InputNames* names = nullptr);
+
+/// A dual that a criterion does not allow, with the reason.
+struct DualReason {
+  std::vector<VertexId> vertices;  ///< Vertices of its edge or face
+  DualKind kind = DualKind::inside;
+  double over_l = 0;  ///< Signed length of the dual over ℓ of the edge or face; signed area of the dual over ℓ²
+  Vec3 at;            ///< Centroid of the edge or face, with z = 0 in the plane; on a sphere [degrees]
+  std::string why;    ///< "h/ℓ = -0.31 on the side of vertex 7, where the angle is 120.1°"
+};
+[[nodiscard]] const ReportTable& table_of(const DualReason*);
+
+/// The violations of a criterion of duals.
+struct DualExplanation {
+  Criterion criterion = Criterion::coefficients;
+  std::size_t violations = 0;       ///< Number of duals that the criterion does not allow
+  std::vector<DualReason> reasons;  ///< Reasons, worst first
+};
+[[nodiscard]] const ReportTable& table_of(const DualExplanation*);
+
+/// Explains the worst violations of a criterion, at most `most`: heights, angles across, and if the weights are the
+/// cause. Preconditions: the criterion is not well_centered, all triangles are counter-clockwise. O(n).
+[[nodiscard]] DualExplanation explain_duals(const Mesh& mesh, Criterion criterion, std::size_t most,
+                                            Executor* executor = nullptr);
 
 /// An explanation as a report: with the mesh and the names for its sentences.
 struct ExplanationReport {

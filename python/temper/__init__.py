@@ -46,7 +46,7 @@ from . import energy, generate, geometry, projection, size, topology, types
 from ._dec import columns, dec_operators
 from ._draw import draw_svg, grid_svg, html_report
 from ._errors import TemperError, TemperWarning
-from ._explain import explain
+from ._explain import explain, explain_duals
 from ._io import formats, read, write
 from ._measure import quality, quality_measures, tetrahedron_quality, triangle_quality
 from ._mesh import Mesh, as_mesh, from_meshio

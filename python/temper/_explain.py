@@ -1,4 +1,4 @@
-"""For each triangle or tetrahedron that is not well-centered, the reason and a cure."""
+"""For each triangle or tetrahedron that is not well-centered, the reason and a cure. Also the reasons of negative duals."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from typing import Any, Callable, overload
 
 from . import _temper
 from ._mesh import MeshLike
-from ._reports import Explanation, TetExplanation
+from ._options import TargetName
+from ._reports import DualExplanation, Explanation, TetExplanation
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 
 
@@ -59,3 +60,32 @@ def explain(
         expect_no_options_of_triangles(explain, cures=cures, progress=progress)
         return _temper.tet_explain(any_mesh._handle, whole)
     return _temper.explain(any_mesh._handle, cures, whole, progress)
+
+
+def explain_duals(mesh: AnyMeshLike, target: TargetName, *, reasons: int = 20) -> DualExplanation | None:
+    """Explains coefficients that are negative, or distances that are not positive: what the solver of a target cannot use.
+
+    Parameters
+    ----------
+    mesh : Mesh, TetMesh, or of another library
+    target : str
+        As in ``optimize``: "vertex" for coefficients, "cell" for distances.
+    reasons : int
+        Largest number of reasons, the worst.
+
+    Returns
+    -------
+    DualExplanation, or None for other targets
+        Its ``violations`` is 0 if the solver can use the mesh as it is. Signs are exact. Other targets need well-centered
+        meshes, which ``explain`` is for.
+
+    Examples
+    --------
+    >>> import temper
+    >>> square = temper.Mesh([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 2), (0, 2, 3)])
+    >>> temper.explain_duals(square, "vertex").violations, temper.explain_duals(square, "cell").violations
+    (0, 1)
+    """
+    any_mesh = as_any_mesh(mesh)
+    function = _temper.tet_explain_duals if isinstance(any_mesh, TetMesh) else _temper.explain_duals
+    return function(any_mesh._handle, target, reasons)

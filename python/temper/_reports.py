@@ -777,6 +777,34 @@ class TetExplanation(_looks.TetExplanation):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class DualReason(Record):
+    """A dual that a criterion does not allow, with the reason."""
+
+    vertices: npt.NDArray[np.int32]
+    """Vertices of its edge or face."""
+    kind: Literal["inside", "boundary", "region"]
+    """Kind of the dual; region: its part in one region."""
+    over_l: float
+    """Signed length of the dual over ℓ of the edge or face; signed area of the dual over ℓ²."""
+    at: tuple[float, float, float]
+    """Centroid of the edge or face; on a sphere longitude and latitude [degrees], and 0."""
+    why: str
+    """The reason: heights, and the angles across."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class DualExplanation(Record):
+    """The violations of a criterion of duals."""
+
+    criterion: Literal["well_centered", "coefficients", "distances"]
+    """The criterion."""
+    violations: int
+    """Number of duals that the criterion does not allow."""
+    reasons: list[DualReason]
+    """Reasons, the worst first."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class FieldFrame(_looks.FieldFrame):
     """The frame of the fields, which are functions of (p − center) / half_size."""
 

@@ -24,7 +24,7 @@ VERSION = 1  # of the schema
 SAME_CLASS = {"TetOptimizeReport": "OptimizeReport", "TetFieldFrame": "FieldFrame"}
 # Reports that only the program has, and reports that npm has not.
 PROGRAM_ALONE = {"Outcome", "Operators", "TetOperators", "ColumnCounts"}
-NOT_IN_NPM = {"TetExplanation", "TetReason", "FaceHeight", "DataReport", "DiffusionErrors", "DiffusionMatrices", "ErrorCounts", "ErrorMatrices", "ErrorNorms", "ErrorSystem", "FieldFrame"}
+NOT_IN_NPM = {"TetExplanation", "TetReason", "FaceHeight", "DualExplanation", "DualReason", "DataReport", "DiffusionErrors", "DiffusionMatrices", "ErrorCounts", "ErrorMatrices", "ErrorNorms", "ErrorSystem", "FieldFrame"}
 # Fields that Python adds.
 MORE = {
     "OptimizeReport": """    data: DataReport | TetDataReport | None = dataclasses.field(default=None, kw_only=True)

@@ -41,6 +41,10 @@ bool is_edge(const Mesh& mesh, HalfedgeId h) {
 }  // namespace
 
 std::span<const CriterionInfo> criteria_table() { return kCriteria; }
+std::span<const std::string_view> words_of(Criterion /*criterion*/) {
+  static constexpr std::array<std::string_view, 3> kNames = {kCriteria[0].name, kCriteria[1].name, kCriteria[2].name};
+  return kNames;
+}
 std::string_view name(Criterion criterion) { return kCriteria[static_cast<std::size_t>(criterion)].name; }
 std::string_view name(DualKind kind) { return kDualKinds[static_cast<std::size_t>(kind)]; }
 std::span<const std::string_view> words_of(DualKind /*kind*/) { return kDualKinds; }

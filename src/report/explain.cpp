@@ -10,6 +10,28 @@
 #include "temper/detail/report.hpp"
 
 namespace temper {
+
+const ReportTable& table_of(const DualReason*) {
+  static const ReportTable table = report_table<DualReason>(
+      "DualReason", "A dual that a criterion does not allow, with the reason.",
+      {{"vertices", "Vertices of its edge or face", "", &DualReason::vertices},
+       {"kind", "Kind of the dual; region: its part in one region", "", &DualReason::kind},
+       {"over_l", "Signed length of the dual over ℓ of the edge or face; signed area of the dual over ℓ²", "",
+        &DualReason::over_l},
+       {"at", "Centroid of the edge or face; on a sphere longitude and latitude [degrees], and 0", "", &DualReason::at},
+       {"why", "The reason: heights, and the angles across", "",
+        [](const DualReason& r) { return NumberedText{r.why}; }}});
+  return table;
+}
+
+const ReportTable& table_of(const DualExplanation*) {
+  static const ReportTable table = report_table<DualExplanation>(
+      "DualExplanation", "The violations of a criterion of duals.",
+      {{"criterion", "The criterion", "", &DualExplanation::criterion},
+       {"violations", "Number of duals that the criterion does not allow", "", &DualExplanation::violations},
+       {"reasons", "Reasons, the worst first", "", &DualExplanation::reasons}});
+  return table;
+}
 namespace {
 
 using Pair = std::array<VertexId, 2>;

@@ -66,6 +66,9 @@ ELSEWHERE = {
     "dihedral_angle": "lengths of tetrahedra are for C++", "six_volumes": "as dihedral_angle",
     "boundary_vertices": "TetMesh.boundary_faces",
     "middle_plane": "PyVista cuts meshes", "plane_through": "draw_svg: cut",
+    "criteria_table": "explain_duals takes a target", "criterion_of": "as criteria_table", "criterion_of_target": "as criteria_table",
+    "violated_edges": "explain_duals lists the worst", "violated_faces": "as violated_edges", "cells_at_violations": "as violated_edges",
+    "meets": "DualExplanation.violations is 0", "violations": "sums of counts of Quality",
     "input_size_field_of": "input_size_field: Python's meshes may go before their views",
 }  # fmt: skip
 

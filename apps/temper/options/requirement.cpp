@@ -12,7 +12,7 @@
 namespace temper::app {
 namespace {
 
-/// Elements that are not well-centered, as the reports count them.
+/// Violations of the criterion of the target.
 constexpr std::string_view kBad = "bad";
 
 /// "energy.BP.1", and the place of that energy.
@@ -126,8 +126,8 @@ Requirement parse_requirement(std::string_view text, std::span<const Key> keys, 
 }
 
 template <class AnyQuality>
-double value_of(const std::string& key, const AnyQuality& quality) {
-  if (key == kBad) return static_cast<double>(bad_elements(quality));
+double value_of(const std::string& key, const AnyQuality& quality, Criterion criterion) {
+  if (key == kBad) return static_cast<double>(violations(quality, criterion));
   if (const auto* measure = find_row(SubjectOf<AnyQuality>::measures(), key)) return measure->of(quality);
   if constexpr (requires { quality.energy; }) {
     for (const EnergyKey& energy : energy_keys()) {
@@ -198,13 +198,6 @@ bool knows_keys(std::span<const std::string> lists, CellKinds kind) {
 
 }  // namespace
 
-std::size_t bad_elements(const Quality& quality) {
-  const double good = quality.well_centered_fraction * static_cast<double>(quality.triangles);
-  return quality.triangles - std::min(quality.triangles, static_cast<std::size_t>(std::lround(good)));
-}
-
-std::size_t bad_elements(const tets::Quality& quality) { return quality.orthocenters_outside; }
-
 Option& add_requirements(Command& command, std::vector<std::string>& lists) {
   std::string sentence =
       "Requirements key=value, key>=value or key<=value, separated by commas. If one is not met, exit with 3. For a "
@@ -212,7 +205,9 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists) {
       "energy at most. A key alone stands for its usual value, see docs/reference/limits.md. ";
   for (const CellKinds kind : kEachKind) sentence += requirement_keys(kind);
   return add_texts(command, "--require", "LIST", Values::repeated, lists,
-                   sentence + "The key bad counts elements that are not well-centered");
+                   sentence +
+                       "The key bad counts what the target of --for cannot use: elements that are not well-centered, "
+                       "negative coefficients of target vertex, or distances of target cell that are not positive");
 }
 
 RequirementLists::RequirementLists(std::string_view verb, std::span<const std::string> lists) {
@@ -251,15 +246,15 @@ std::string_view sign(Preference better) {
 }
 
 template <class AnyQuality>
-std::vector<Outcome> judge(std::span<const Requirement> requirements, const AnyQuality& quality) {
+std::vector<Outcome> judge(std::span<const Requirement> requirements, const AnyQuality& quality, Criterion criterion) {
   std::vector<Outcome> outcomes;
   for (const Requirement& requirement : requirements) {
-    const double found = value_of(requirement.key, quality);
+    const double found = value_of(requirement.key, quality, criterion);
     outcomes.push_back({requirement, found, holds(requirement.better, found, requirement.value)});
   }
   return outcomes;
 }
-#define TEMPER_MAKE(S) template std::vector<Outcome> judge(std::span<const Requirement>, const S::Quality&);
+#define TEMPER_MAKE(S) template std::vector<Outcome> judge(std::span<const Requirement>, const S::Quality&, Criterion);
 TEMPER_EACH_SUBJECT(TEMPER_MAKE)
 #undef TEMPER_MAKE
 

@@ -36,9 +36,11 @@ struct Outcome {
 };
 [[nodiscard]] const ReportTable& table_of(const Outcome*);
 
-/// Elements that are not well-centered: the key `bad`, and the number of all reports.
-[[nodiscard]] std::size_t bad_elements(const Quality& quality);
-[[nodiscard]] std::size_t bad_elements(const tets::Quality& quality);
+/// Elements that are not well-centered: the number of all reports.
+template <class AnyQuality>
+[[nodiscard]] std::size_t bad_elements(const AnyQuality& quality) {
+  return violations(quality, Criterion::well_centered);
+}
 
 /// --require, with the keys of each kind of cells in its help.
 Option& add_requirements(Command& command, std::vector<std::string>& lists);
@@ -63,8 +65,10 @@ class RequirementLists {
 
 /// "=", ">=" or "<=".
 [[nodiscard]] std::string_view sign(Preference better);
+/// The key `bad` counts violations of the criterion.
 template <class AnyQuality>
-[[nodiscard]] std::vector<Outcome> judge(std::span<const Requirement> requirements, const AnyQuality& quality);
+[[nodiscard]] std::vector<Outcome> judge(std::span<const Requirement> requirements, const AnyQuality& quality,
+                                         Criterion criterion);
 /// Lists on standard error the requirements that are not met; Exit::requirement when there are some.
 [[nodiscard]] Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path);
 

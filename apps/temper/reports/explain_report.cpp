@@ -206,7 +206,51 @@ std::string paragraph(const TetInput& input, const tets::Reason& reason, std::si
   return text + blank + "- Try: " + command(reason.cure) + "\n";
 }
 
+// Of duals.
+
+std::string_view dual_name(Criterion criterion, DualKind kind) {
+  const bool coefficient = criterion == Criterion::coefficients;
+  if (kind == DualKind::region) return coefficient ? "coefficient of one region" : "distance from the interface";
+  if (kind == DualKind::boundary && !coefficient) return "distance from the boundary";
+  return coefficient ? "coefficient" : "distance";
+}
+
+template <class Subject>
+std::string paragraph(const InputOf<Subject>& input, const DualReason& reason, Criterion criterion, std::size_t number,
+                      const TextStyle& style) {
+  const std::string third = Subject::dimension == 2 ? "" : fmt::format(", {:.9g}", reason.at.z);
+  const std::string text =
+      fmt::format("{} {} at ({:.9g}, {:.9g}{}): {}{} {:.4g}: {}.", reason.vertices.size() == 2 ? "Edge" : "Face",
+                  input.vertex_numbers(reason.vertices, "-"), reason.at.x, reason.at.y, third,
+                  dual_name(criterion, reason.kind), over_length<Subject>(criterion), reason.over_l,
+                  renumber(reason.why, [&](VertexId v) { return input.vertex_number(v); }));
+  return pad_left(std::to_string(number) + ". ", kIndent) + wrapped(text, kIndent, style);
+}
+
 }  // namespace
+
+template <class Subject>
+std::string explanation_text(const DualExplanation& e, const InputOf<Subject>& input, const TextStyle& style) {
+  std::string text = fmt::format("{}: {}\n", input.path, count_of_duals(e.violations, e.criterion));
+  if (e.reasons.empty()) return text;
+  text += e.violations > 1 ? "\nThe worst first\n" : "\n";
+  for (std::size_t i = 0; i < e.reasons.size(); ++i)
+    text += paragraph<Subject>(input, e.reasons[i], e.criterion, i + 1, style);
+  text += rest(e.reasons.size(), e.violations);
+  return text +
+         "Other weights, flips and moved vertices may help. At the boundary and at interfaces, new vertices there, "
+         "too.\n";
+}
+#define TEMPER_MAKE(S) \
+  template std::string explanation_text(const DualExplanation&, const InputOf<S>&, const TextStyle&);
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
+
+std::string explanation_json(const DualExplanation& e, std::span<const std::size_t> points) {
+  Json json = {{"schema", kSchema}};
+  json.update(json_of(e, points));
+  return dump(json);
+}
 
 std::string explanation_text(const Explanation& e, const Input& input, std::size_t limit, const TextStyle& style) {
   std::string text = headline(e, input) + summary(e);

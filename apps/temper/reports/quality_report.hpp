@@ -53,6 +53,18 @@ template <class AnyQuality>
 /// "46 of 96 triangles are not well-centered, every edge is regular"
 template <class AnyQuality>
 [[nodiscard]] std::string verdict(const AnyQuality& quality);
+/// The verdict for a target. Of duals it has their counts, and the place of the worst; or it says that a solver can use
+/// the mesh as it is.
+template <class Subject>
+[[nodiscard]] std::string target_verdict(const typename Subject::Quality& quality, const InputOf<Subject>& input,
+                                         Criterion criterion);
+/// " over length", if numbers in reports are: a coefficient of triangles has no unit.
+template <class Subject>
+[[nodiscard]] constexpr std::string_view over_length(Criterion criterion) {
+  return criterion == Criterion::coefficients && Subject::dimension == 2 ? "" : " over length";
+}
+/// "no edge has a negative coefficient", or how many have; the same of distances.
+[[nodiscard]] std::string count_of_duals(std::size_t violations, Criterion criterion);
 /// "2 of 9 triangles are not well-centered", or "all 9 triangles are well-centered".
 template <class Subject>
 [[nodiscard]] std::string well_centered(std::size_t bad, std::size_t elements);
@@ -61,12 +73,9 @@ template <class Subject>
 template <class MeshOrQuality>
 [[nodiscard]] std::string mesh_size(const MeshOrQuality& of);
 
-/// "Next: temper explain out.vtu", if an element of the file is not well-centered.
-template <class AnyQuality>
-[[nodiscard]] std::string next_step(const AnyQuality& quality, const std::string& path, const std::string& projection) {
-  if (bad_elements(quality) == 0 || io::is_stream(path)) return {};
-  return "Next: " + command_line("explain", path, projection) + "\n";
-}
+/// "Next: temper explain out.vtu", for the target if its criterion is about duals; empty for a stream.
+[[nodiscard]] std::string next_step(const std::string& path, const std::string& projection, Criterion criterion,
+                                    std::string_view target);
 
 /// Quadrilaterals, which are two triangles each.
 [[nodiscard]] std::size_t count_quadrilaterals(const Mesh& mesh);

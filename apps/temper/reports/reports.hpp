@@ -63,7 +63,12 @@ struct TetDecRecord {
 /// Counts, then one paragraph per reason of the explanation, which has at most `limit`.
 [[nodiscard]] std::string explanation_text(const tets::Explanation& explanation, const TetInput& input,
                                            std::size_t limit, const TextStyle& style);
+/// The number of violations, then one paragraph per reason.
+template <class Subject>
+[[nodiscard]] std::string explanation_text(const DualExplanation& explanation, const InputOf<Subject>& input,
+                                           const TextStyle& style);
 /// All reasons. Vertices and elements are counted from 0, in the texts too.
+[[nodiscard]] std::string explanation_json(const DualExplanation& explanation, std::span<const std::size_t> points);
 [[nodiscard]] std::string explanation_json(const Explanation& explanation, const Input& input);
 [[nodiscard]] std::string explanation_json(const tets::Explanation& explanation, const TetInput& input);
 

@@ -19,6 +19,7 @@
 #include "temper/quality.hpp"
 #include "temper/tets/quality.hpp"
 #include "threads.hpp"
+#include "verbs/optimize_settings.hpp"
 
 namespace temper::app {
 namespace {
@@ -41,7 +42,7 @@ std::string crack_warning(const Input& input) {
 }
 
 struct CheckSettings {
-  std::string projection;
+  std::string projection, target = "any";
   Heights heights;
   std::vector<std::string> inputs;
   std::vector<std::string> write, require;
@@ -59,6 +60,7 @@ void add_options(Command& command, CheckSettings& s) {
       .require();
   add_projection(command, s.projection);
   add_heights(command, s.heights);
+  add_target(command, s.target, false);
   command.add_flag("--details", s.details,
                    "Print all measures, energies, histograms and the worst " + any_elements() + ".");
   command.add_flag(
@@ -84,6 +86,7 @@ void add_options(Command& command, CheckSettings& s) {
                     "  temper check in.vtu --json --worst 20\n"
                     "  temper check in.vtu --details --write report.html\n"
                     "  temper check in.vtu --require inverted=0,\"min_angle>=1\"\n"
+                    "  temper check in.vtu --for vertex --require bad=0\n"
                     "  temper check in.vtu in.vtu --require inverted=0\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
 }
@@ -93,6 +96,7 @@ class Checks {
   Checks(const Command& command, const CheckSettings& settings)
       : command_(command),
         s_(settings),
+        criterion_(criterion_of_target(settings.target)),
         requirements_("check", settings.require),
         threads_(make_threads(settings.threads)) {
     options_.gamma = s_.gamma.value_or(options_.gamma);
@@ -135,12 +139,13 @@ class Checks {
     const std::vector<Requirement>& requirements = requirements_.of(Subject::cells);
     print_warnings(input.warnings());
     typename Subject::Quality measured = measure(input);
-    const std::vector<Outcome> outcomes = judge(requirements, measured);
+    const std::vector<Outcome> outcomes = judge(requirements, measured, criterion_);
     if (!files_.page.empty())
       outputs_.write_text(files_.page, check_html(command_line(command_, {input.path}), input, measured));
     show_places_of_file(measured, input);
     report(input.path, outcomes, check_json(input.path, measured, input.points, outcomes),
-           s_.details ? quality_text(measured, input, text_style()) : short_text(input, measured));
+           s_.details ? quality_text(measured, input, text_style()) + details_of_target(input, measured)
+                      : short_text(input, measured));
   }
   [[nodiscard]] Quality measure(Input& input) const {
     if (const std::string crack = crack_warning(input); !crack.empty()) print_warnings(std::vector{crack});
@@ -178,14 +183,23 @@ class Checks {
   template <class Subject>
   [[nodiscard]] std::string short_text(const InputOf<Subject>& input, const typename Subject::Quality& measured) const {
     std::string text = fmt::format("{}: {}\n{}{}{}\n", input.path, mesh_size(measured), halves_text(input.mesh()),
-                                   brief_text(measured), verdict(measured));
-    if (bad_elements(measured) == 0 || input.path == kStandardInput) return text;
-    return text + fmt::format("Next: {} -o OUT, or {}\n", command_line("optimize", input.path, s_.projection),
-                              command_line("explain", input.path, s_.projection));
+                                   brief_text(measured), target_verdict(measured, input, criterion_));
+    if (violations(measured, criterion_) == 0 || input.path == kStandardInput) return text;
+    const std::string target = command_.was_given("--for") ? " --for " + s_.target : "";
+    return text + fmt::format("Next: {} -o OUT{}, or {}{}\n", command_line("optimize", input.path, s_.projection),
+                              target, command_line("explain", input.path, s_.projection), target);
+  }
+  /// The verdict for the target, if it is not the one above all measures.
+  template <class Subject>
+  [[nodiscard]] std::string details_of_target(const InputOf<Subject>& input,
+                                              const typename Subject::Quality& measured) const {
+    if (criterion_ == Criterion::well_centered) return {};
+    return "\n" + target_verdict(measured, input, criterion_) + "\n";
   }
 
   const Command& command_;
   const CheckSettings& s_;
+  Criterion criterion_;
   FurtherOutputs files_;
   Outputs outputs_ = Outputs("check");
   RequirementLists requirements_;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -13,12 +14,14 @@
 #include "reports/reports.hpp"
 #include "system/system.hpp"
 #include "temper/detail/lp.hpp"
+#include "temper/detail/optimize_table.hpp"
+#include "verbs/optimize_settings.hpp"
 
 namespace temper::app {
 namespace {
 
 struct ExplainSettings {
-  std::string projection;
+  std::string projection, target = "any";
   Heights heights;
   std::string input;
   std::uint64_t limit = 10;
@@ -31,6 +34,7 @@ void add_options(Command& command, ExplainSettings& s) {
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
   add_heights(command, s.heights);
+  add_target(command, s.target, false);
   command.add_flag("--json", s.json, "Print all reasons as JSON, with vertices and elements counted from 0.");
   add_count(command, "--limit", s.limit, 0,
             "Largest number of conflicts to print, and of places for which weights exist. Cures are searched for these "
@@ -42,6 +46,7 @@ void add_options(Command& command, ExplainSettings& s) {
   command.add_help({"IN [options]",
                     "  temper example sparse-horseshoe -o shoe.vtu && temper explain shoe.vtu\n"
                     "  temper explain shoe.vtu --json\n"
+                    "  temper explain shoe.vtu --for vertex\n"
                     "  temper explain box.mesh --limit 3\n"
                     "  # a mesh for which weights exist, but have not been found yet\n"
                     "  temper example annulus -o ring.vtu && temper explain ring.vtu --limit 3\n",
@@ -87,6 +92,35 @@ Explanation explained(const ExplainSettings& s, const Input& input) {
   return explanation;
 }
 
+/// The violations of a criterion of duals, with places of the file.
+template <class AnyInput>
+DualExplanation explained_duals(const ExplainSettings& s, const AnyInput& input, Criterion criterion) {
+  const std::size_t most = s.json ? static_cast<std::size_t>(-1) : s.limit;
+  DualExplanation explanation = explain_duals(input.mesh(), criterion, most);
+  if constexpr (std::is_same_v<AnyInput, Input>) {
+    for (DualReason& reason : explanation.reasons) {
+      const Vec2 at = place_in_file(input.file, {reason.at.x, reason.at.y});
+      reason.at = {at.x, at.y, 0};
+    }
+  }
+  return explanation;
+}
+
+template <class AnyInput>
+void print_explanation(const ExplainSettings& s, const AnyInput& input) {
+  if (const Criterion criterion = criterion_of_target(s.target); criterion != Criterion::well_centered) {
+    const DualExplanation explanation = explained_duals(s, input, criterion);
+    if (s.json) return print_data(explanation_json(explanation, input.points));
+    print(explanation_text(explanation, input, text_style()));
+    if (explanation.violations > 0 && !io::is_stream(input.path))
+      print(fmt::format("Next: {} -o OUT --for {}\n", command_line("optimize", input.path, s.projection), s.target));
+    return;
+  }
+  const auto explanation = explained(s, input);
+  s.json ? print_data(explanation_json(explanation, input))
+         : print(explanation_text(explanation, input, s.limit, text_style()));
+}
+
 }  // namespace
 
 Exit run_explain(const Arguments& arguments) {
@@ -96,7 +130,9 @@ Exit run_explain(const Arguments& arguments) {
           " that is not well-centered. A triangle is bad for one of two reasons. Either a proof shows a small set of "
           "triangles for which no weights exist, or weights exist but have not been found. temper also tries cures on "
           "the triangles around. For a tetrahedron it prints the orthocenter, the weights, the heights "
-          "over faces, and what may help. The exit code does not depend on the result: to test a mesh, use temper "
+          "over faces, and what may help. With --for vertex or cell it explains negative coefficients of edges, or "
+          "distances "
+          "that are not positive. The exit code does not depend on the result: to test a mesh, use temper "
           "check "
           "--require.");
   ExplainSettings s;
@@ -107,9 +143,7 @@ Exit run_explain(const Arguments& arguments) {
   std::visit(
       [&](const auto& input) {
         print_warnings(input.warnings());
-        const auto explanation = explained(s, input);
-        s.json ? print_data(explanation_json(explanation, input))
-               : print(explanation_text(explanation, input, s.limit, text_style()));
+        print_explanation(s, input);
       },
       any);
   return Exit::done;

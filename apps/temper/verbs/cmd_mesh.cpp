@@ -405,8 +405,8 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
                       stopped_early(made.report.stopped) ? "a longer --time-limit, " : "",
                       s.options.optimize->unknowns == Unknowns::positions ? "weights, " : "",
                       command_line("explain", s.output.path, s.projection)));
-  } else if (!s.sphere) {
-    print(next_step(after, s.output.path, s.projection));
+  } else if (!s.sphere && bad_elements(after) > 0) {
+    print(next_step(s.output.path, s.projection, Criterion::well_centered, {}));
   }
   // The time limit is the usual end of a search for few points.
   const bool is_usual_end = few && made.report.stopped == Stopped::time_limit && made.bad == 0;

@@ -86,8 +86,11 @@ void print_result(const OptimizeSettings& s, const RunResults<Subject>& results,
     end += fmt::format("; solver error {:.3g} times the input's", report.objective_after / report.objective_before);
   if (const std::size_t notes = notes_of(report).size(); !s.details && notes > 0)
     end += fmt::format("; --details has {}", plural(notes, "note", "notes"));
+  const Criterion criterion = criterion_of_target(s.target);
+  const std::size_t bad = violations(results.after, criterion);
+  if (criterion != Criterion::well_centered) print(count_of_duals(bad, criterion) + "\n");
   print(fmt::format("{}\nwrote {}\n", end, fmt::join(outputs.written(), ", ")));
-  if (!s.metric) print(next_step(results.after, s.output.path, s.projection));
+  if (!s.metric && bad > 0) print(next_step(s.output.path, s.projection, criterion, s.target));
 }
 
 template <class Subject>

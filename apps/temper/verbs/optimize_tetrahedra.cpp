@@ -47,7 +47,7 @@ void improve(const OptimizeSettings& s, TetInput& input, const RunFiles& files, 
   if (!report) throw as_failure(spell_options(report.error()));
   results.report = *std::move(report);
   results.after = quality(results.second, measuring);
-  results.outcomes = judge(s.requirements, results.after);
+  results.outcomes = judge(s.requirements, results.after, criterion_of_target(s.target));
   if (!s.files.picture.empty())
     results.picture = draw_before_after_svg(input.mesh(), results.second, tets::middle_plane(input.mesh()));
 }

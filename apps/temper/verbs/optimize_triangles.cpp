@@ -173,7 +173,7 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
   if (measured && !viewer) results.after = quality(*seen, measuring);
   const bool all_regular = measured && results.after.non_regular_edges == 0;  // those that may not be flipped, too
   results.lacks_flips = !all_regular && lacks_flips(s.options, *seen, files.threads);
-  results.outcomes = judge(s.requirements, results.after);
+  results.outcomes = judge(s.requirements, results.after, criterion_of_target(s.target));
   if (!s.files.picture.empty()) results.picture = draw_before_after_svg(results.second, *seen);
 }
 

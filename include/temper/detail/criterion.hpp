@@ -41,6 +41,7 @@ struct CriterionInfo {
 /// One row for each Criterion, in the same order.
 [[nodiscard]] std::span<const CriterionInfo> criteria_table();
 [[nodiscard]] std::string_view name(Criterion criterion);
+[[nodiscard]] std::span<const std::string_view> words_of(Criterion);
 /// The criterion of a scheme: coefficients for unknowns at vertices, distances for unknowns in cells, or well_centered.
 [[nodiscard]] Criterion criterion_of(Scheme scheme);
 

@@ -16,6 +16,7 @@
 #include <variant>
 
 #include "temper/detail/cell_kinds.hpp"
+#include "temper/detail/criterion.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/optimize.hpp"
 
@@ -99,6 +100,9 @@ struct SolverName {
 [[nodiscard]] std::span<const Preset> keeps();
 /// Returns an error if an option contradicts the use that the target stands for: its scheme, or that weights stay.
 [[nodiscard]] Expected<void> check_target(const OptimizeOptions& options, std::string_view target);
+/// Returns the criterion of a target, which is one of targets(). Targets that keep weights have measures of their own,
+/// beside well_centered.
+[[nodiscard]] Criterion criterion_of_target(std::string_view target);
 /// Returns an error if options change a part of the mesh to keep.
 [[nodiscard]] Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::string_view> keep);
 

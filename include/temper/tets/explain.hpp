@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "temper/explain.hpp"
 #include "temper/tets/quality.hpp"
 #include "temper/tets/weights.hpp"
 
@@ -74,5 +75,10 @@ struct ExplanationReport {
 /// Explains each tetrahedron that is not well-centered. Signs rest on exact predicates, and a verdict on
 /// check_certificate(). It fails as find_weights() does. O(n), and a linear program of the whole mesh.
 [[nodiscard]] Expected<Explanation> explain(const TetMesh& mesh, LpSolver& solver, const ExplainOptions& options = {});
+
+/// Explains the worst violations of a criterion of duals, at most `most`. Of a negative coefficient it names the face
+/// with the largest part. Precondition: the criterion is not well_centered. O(n).
+[[nodiscard]] DualExplanation explain_duals(const TetMesh& mesh, Criterion criterion, std::size_t most,
+                                            Executor* executor = nullptr);
 
 }  // namespace temper::tets

@@ -320,6 +320,12 @@ Expected<void> check_target(const OptimizeOptions& options, std::string_view tar
   return {};
 }
 
+Criterion criterion_of_target(std::string_view target) {
+  const Expected<OptimizeOptions> options = options_for(target);
+  const bool weighs = options && options->unknowns != Unknowns::positions;
+  return weighs ? criterion_of(options->scheme) : Criterion::well_centered;
+}
+
 Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::string_view> keep) {
   for (const std::string_view name : keep) {
     const Expected<const Preset*> part = find(kKeeps, "keep", name);

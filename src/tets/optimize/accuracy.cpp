@@ -19,9 +19,9 @@ constexpr double kMostOfMargin = 0.9;  // of a margin that is to stay
 constexpr double kBarrier = 0.005;     // μ
 constexpr double kOffsetShare = 3;     // κ
 constexpr int kSmoothings = 10;
-// The phase ends if kStepsToGain steps lower the sum by less than kLeastGain.
+// The phase ends if kStepsToGain steps lower the sum by less than kLeastDecrease.
 constexpr std::size_t kStepsToGain = 10;
-constexpr double kLeastGain = 5e-3;
+constexpr double kLeastDecrease = 5e-3;
 // Below, the margin is not certain in doubles.
 constexpr double kLeastMargin = 1e-9;
 // The rounding of a cosine.
@@ -190,7 +190,8 @@ bool Accuracy::is_inside() const {
 
 bool Accuracy::descend(const MustStop& must_stop) {
   if (!std::isfinite(now_.lowered)) return false;
-  if (lowered_.size() > kStepsToGain && lowered_.end()[-1 - std::ptrdiff_t(kStepsToGain)] - now_.lowered < kLeastGain)
+  if (lowered_.size() > kStepsToGain &&
+      lowered_.end()[-1 - std::ptrdiff_t(kStepsToGain)] - now_.lowered < kLeastDecrease)
     return false;
   for (const VertexId v : mesh_.vertices()) before_[v] = mesh_.point(v);
   Descent::Outcome outcome;

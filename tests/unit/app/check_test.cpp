@@ -227,6 +227,48 @@ TEST_F(Check, SeveralMeshesAreAListAndNoneKeepsAnotherFromBeingLookedAt) {
   EXPECT_TRUE(contains(outcome.err, "b.vtu: requirement not met: regions=7"));
 }
 
+// --- targets -----------------------------------------------------------------------------------------------------
+
+// A square cut along a diagonal, whose dual has the length 0.
+constexpr const char* kSquare =
+    "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+    "Triangles\n2\n1 2 3 0\n1 3 4 0\nEnd\n";
+
+TEST_F(Check, AMeshThatTheSolverOfATargetTakesNeedsNoRun) {
+  write("square.mesh", kSquare);
+  EXPECT_TRUE(contains(temper_ok({"check", "square.mesh"}).out, "2 of 2 triangles are not well-centered"));
+  const std::string text = temper_ok({"check", "square.mesh", "--for", "vertex", "--require", "bad=0"}).out;
+  EXPECT_TRUE(contains(text,
+                       "no edge has a negative coefficient: a solver with unknowns at vertices can use this mesh "
+                       "as it is\n"))
+      << text;
+  EXPECT_FALSE(contains(text, "Next:"));
+  const Outcome cell = temper({"check", "square.mesh", "--for", "fipy", "--require", "bad=0"});
+  EXPECT_EQ(cell.exit, 3);
+  EXPECT_TRUE(contains(cell.out,
+                       "1 distance between centers is not positive: 1 inside, 0 from the boundary, 0 from interfaces; "
+                       "the least over length is 0 at edge 3-1 (0.5, 0.5)\n"
+                       "Next: temper optimize square.mesh -o OUT --for cell, or temper explain square.mesh --for "
+                       "cell\n"))
+      << cell.out;
+  EXPECT_TRUE(contains(cell.err, "bad=0 means bad = 0, found 1"));
+  EXPECT_EQ(temper({"check", "square.mesh", "--for", "stars", "--require", "bad=0"}).exit, 3);
+}
+
+TEST_F(Check, TheVerdictNamesTheWorstCoefficient) {
+  // Obtuse across the boundary at the third point of the file, and across an interface of regions.
+  write("kite.mesh",
+        "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n4 0 0\n2 1 0\n2 -9 0\n"
+        "Triangles\n2\n1 2 3 1\n2 1 4 2\nEnd\n");
+  const std::string text = temper({"check", "kite.mesh", "--for", "vertex"}).out;
+  EXPECT_TRUE(contains(text,
+                       "1 negative coefficient: 0 inside, 0 on the boundary, 1 of one region alone; the least is "
+                       "-0.375 at edge 1-2 (2, 0)"))
+      << text;
+  EXPECT_TRUE(
+      contains(temper_ok({"check", "kite.mesh", "--for", "vertex", "--details"}).out, "1 negative coefficient"));
+}
+
 // --- tetrahedra ------------------------------------------------------------------------------------------------
 
 TEST_F(Check, TetrahedraAreMeasuredInTheNumbersOfTheirFile) {
@@ -258,6 +300,22 @@ TEST_F(Check, JsonOfTetrahedraHasExactlyTheKeysOfTheReport) {
   EXPECT_EQ(report["worst"][0]["tetrahedron"], 1);
   EXPECT_EQ(report["worst"][0]["vertices"], (OrderedJson{1, 3, 2, 5}));  // points[i] of the file, from 0
   EXPECT_TRUE(contains(report["worst"][0]["why"].get<std::string>(), "face 1-3-2"));
+}
+
+TEST_F(Check, TargetsOfTetrahedraHaveTheirOwnVerdicts) {
+  make_tetrahedra();
+  const OrderedJson report = check({"two.mesh"});
+  const Outcome vertex = temper({"check", "two.mesh", "--for", "vertex", "--require", "bad=0"});
+  EXPECT_EQ(vertex.exit, 3);
+  EXPECT_TRUE(contains(vertex.out, "of one region alone; the least over length is ")) << vertex.out;
+  EXPECT_TRUE(contains(vertex.out, " at edge ")) << vertex.out;
+  const Outcome cell = temper({"check", "two.mesh", "--for", "cell", "--require", "bad=0"});
+  EXPECT_EQ(cell.exit, 3);
+  EXPECT_TRUE(contains(cell.out, " at face ")) << cell.out;
+  const std::size_t all = report["nonpositive_distances"].get<std::size_t>() +
+                          report["nonpositive_boundary_distances"].get<std::size_t>() +
+                          report["nonpositive_region_distances"].get<std::size_t>();
+  EXPECT_TRUE(contains(cell.err, "bad=0 means bad = 0, found " + std::to_string(all))) << cell.err;
 }
 
 TEST_F(Check, RequirementsOnTetrahedraHaveTheirOwnKeys) {

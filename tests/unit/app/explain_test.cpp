@@ -48,6 +48,34 @@ TEST_F(Explain, WhatItSaysWeightsCureTheyDo) {
   EXPECT_TRUE(contains(temper_ok({"explain", "out.vtu"}).out, "triangles are well-centered"));
 }
 
+TEST_F(Explain, ForATargetItExplainsDuals) {
+  write("in.mesh",
+        "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n4 0 0\n2 1 0\n2 -1 0\n"
+        "Triangles\n2\n1 2 3 1\n2 1 4 1\nEnd\n");
+  const std::string text = temper_ok({"explain", "in.mesh", "--for", "vertex"}).out;
+  EXPECT_TRUE(contains(text, "in.mesh: 1 negative coefficient\n")) << text;
+  EXPECT_TRUE(contains(text, "Edge 1-2 at (2, 0): coefficient -0.75: h/")) << text;
+  EXPECT_TRUE(contains(text, "on the side of vertex 3") && contains(text, "126.9")) << text;
+  EXPECT_TRUE(contains(text, "Next: temper optimize in.mesh -o OUT --for vertex\n")) << text;
+  const auto json = nlohmann::json::parse(temper_ok({"explain", "in.mesh", "--for", "cell", "--json"}).out);
+  EXPECT_EQ(json["criterion"], "distances");
+  EXPECT_EQ(json["violations"], 1);
+  EXPECT_EQ(json["reasons"][0]["vertices"], (nlohmann::json{0, 1}));
+  EXPECT_EQ(json["reasons"][0]["kind"], "inside");
+  temper_ok({"example", "triangle", "--a", "1", "--b", "1", "--angle", "60", "-o", "t.vtu"});
+  EXPECT_EQ(temper_ok({"explain", "t.vtu", "--for", "vertex"}).out, "t.vtu: no edge has a negative coefficient\n");
+}
+
+TEST_F(Explain, ForATargetItExplainsDualsOfTetrahedra) {
+  make_tetrahedra();
+  const std::string faces = temper_ok({"explain", "two.mesh", "--for", "cell"}).out;
+  EXPECT_TRUE(contains(faces, "Face ")) << faces;
+  EXPECT_TRUE(contains(faces, "distance") && contains(faces, "dihedral")) << faces;
+  const std::string edges = temper_ok({"explain", "two.mesh", "--for", "vertex", "--limit", "1"}).out;
+  EXPECT_TRUE(contains(edges, "  1. Edge ")) << edges;
+  EXPECT_TRUE(contains(edges, "over length -")) << edges;
+}
+
 TEST_F(Explain, SpeaksTheNumbersOfTheFile) {
   // Counted from 1 in this format; two obtuse triangles whose weights exist.
   write("in.mesh",
