@@ -8,7 +8,9 @@ from typing import Any, Literal
 from . import _temper
 from ._records import Record
 
-Constraints = Literal["well_centered", "heights_only", "regular", "completely_well_centered"]
+Constraints = Literal[
+    "well_centered", "heights_only", "regular", "coefficients", "distances", "completely_well_centered"
+]
 
 
 @dataclasses.dataclass(frozen=True)

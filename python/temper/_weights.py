@@ -160,7 +160,7 @@ class WeightReport(Record):
 def find_weights(
     mesh: AnyMeshLike,
     *,
-    goal: Literal["margin", "change", "elastic", "center", "accuracy"] = "change",
+    goal: Literal["margin", "change", "elastic", "center", "accuracy", "least"] = "change",
     margin: float = 0.01,
     from_input: bool = False,
     whole: int = 3000,
@@ -176,12 +176,14 @@ def find_weights(
     Parameters
     ----------
     mesh : Mesh, TetMesh, or of another library
-    goal : {"change", "margin", "elastic", "center", "accuracy"}
+    goal : {"change", "margin", "elastic", "center", "accuracy", "least"}
         change: the least change for the requested margin. margin: the best margin, and the least change for the
         requested margin or for half of the best one. elastic: the least violation, but at least half of the best margin
         if that is positive; then the least change. center: the greatest product of all h/ℓ, d/ℓ and 1 − d/ℓ, or of all
         dual lengths/ℓ. accuracy: the least sum of squared offsets between the midpoints of edges and their duals, with
-        the requested margin or half of the best one. center and accuracy are unique, and come with a proof.
+        the requested margin or half of the best one. center and accuracy are unique, and come with a proof. least: the
+        least sum of squared changes of d/ℓ over all edges, with the requested margin or a smaller one. If there are no
+        such weights, its weights violate the constraints little.
     margin : float
         Margin t in [0, 1/2): all h ≥ tℓ and tℓ ≤ d ≤ (1 − t)ℓ, or the inequalities of the other constraints.
     from_input : bool
@@ -191,8 +193,9 @@ def find_weights(
         neighborhoods of bad ones are solved.
     rings : int
         Number of rings of vertices around bad triangles or tetrahedra, at first.
-    constraints : {"well_centered", "heights_only", "regular", "completely_well_centered"}
-        Constraints on the weights: see ``constraints_table``, which lists those of triangles and of tetrahedra.
+    constraints : {"well_centered", "heights_only", "regular", "coefficients", "distances", "completely_well_centered"}
+        Constraints on the weights: see ``constraints_table``, which lists those of triangles and of tetrahedra. A solver
+        with unknowns at vertices needs coefficients, with unknowns in cells distances. goal "least" fits both.
     edges : (k, 2) int, optional
         Prescribed edges for ``regular``, by their vertices; None: all. Boundary edges are always regular. For triangles
         alone.
@@ -213,6 +216,8 @@ def find_weights(
     >>> temper.check_certificate(mesh, report.certificate)
     'proves'
     >>> temper.find_weights(mesh, constraints="heights_only").verdict
+    'feasible'
+    >>> temper.find_weights(mesh, constraints="coefficients", goal="least").verdict
     'feasible'
     """
     any_mesh = as_any_mesh(mesh)

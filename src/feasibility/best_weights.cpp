@@ -100,7 +100,7 @@ class BestWeights {
 
   void add_rows() {
     const std::vector<CellId> cells = all_cells(demand_);
-    for (const WeightConstraint& c : demand_.constraints_of(cells)) add_row(c, demand_.has_margin(c) ? margin_ : 0);
+    for (const WeightConstraint& c : demand_.constraints_of(cells)) add_row(c, margin_);
     if (!demand_.has_duals()) return;
     for (const WeightEdge& edge : demand_.edges_of(cells)) {
       add_row(split_constraint(edge.p, edge.q), -kCrossingReach);

@@ -276,6 +276,13 @@ std::optional<InputError> expect_goal(const WeightOptions& options, const Convex
   if ((is_convex(options.goal) || options.goal == WeightGoal::least) && convex == nullptr)
     return InputError{ErrorCode::invalid_option, "",
                       "goal: center, accuracy and least need a solver of convex programs"};
+  const bool of_scheme =
+      options.constraints == Constraints::coefficients || options.constraints == Constraints::distances;
+  if (is_convex(options.goal) && of_scheme) {
+    return InputError{ErrorCode::invalid_option, "",
+                      "goal: center and accuracy are not for constraints " + std::string(name(options.constraints)) +
+                          ". Next: goal least"};
+  }
   if (!(options.offset_factor >= 0 && options.boundary_offset_factor >= 0 &&
         options.offset_factor + options.boundary_offset_factor < kUnbounded)) {
     return InputError{ErrorCode::invalid_option, "",

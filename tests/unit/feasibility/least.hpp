@@ -26,7 +26,8 @@ WeightReport least_of(const M& mesh, const WeightOptions& options) {
 }
 
 /// Weights w minimize a convex f over a polyhedron if and only if w minimizes the linear function ∇f(w) · v over it.
-inline void expect_minimum(const Demand& demand, const WeightReport& report) {
+/// Returns false if Clp gives up.
+inline bool expect_minimum(const Demand& demand, const WeightReport& report) {
   const VertexWeights start(demand.n_vertices(), 0.0);
   const RegionProblem problem{demand, start, report.asked};
   std::vector<double> slope(demand.n_vertices(), 0.0);
@@ -40,7 +41,7 @@ inline void expect_minimum(const Demand& demand, const WeightReport& report) {
   LpBuilder lp;
   for (const VertexId v : demand.vertices()) {
     const double most = v.index == 0 ? 0 : kUnbounded;
-    lp.add_column(slope[v.index], -most, most);
+    lp.add_column(slope[v.index] / squares, -most, most);
   }
   for (const WeightConstraint& c : demand.constraints_of(cells)) {
     const LinearForm form = demand.linear_form(c);
@@ -50,8 +51,10 @@ inline void expect_minimum(const Demand& demand, const WeightReport& report) {
     lp.end_row(problem.margin_of(c, report.asked) - form.constant, kUnbounded);
   }
   const LpSolution least = clp_solver()->solve(lp.problem());
-  ASSERT_EQ(least.status, LpStatus::optimal);
-  EXPECT_NEAR(least.objective, 2 * squares, 1e-5 * squares);
+  if (least.status == LpStatus::failed) return false;
+  EXPECT_EQ(least.status, LpStatus::optimal);
+  EXPECT_NEAR(least.objective, 2, 1e-5);
+  return true;
 }
 
 }  // namespace temper::test

