@@ -79,17 +79,29 @@ std::string_view end_text(SearchEnd end) {
   return {};
 }
 
+std::string_view kept_text(Constraints constraints) {
+  switch (constraints) {
+    case Constraints::regular:
+      return "dual lengths/l";
+    case Constraints::coefficients:
+    case Constraints::distances:
+      return "dual lengths/l and h/l";
+    default:
+      return "h/l and d/l";
+  }
+}
+
 std::string violations_text(const WeightsRecord& r) {
   if (r.report.violations.empty()) return {};
   std::vector<std::string> lines;
   double total = 0;
   for (const Violation& v : r.report.violations) {
-    lines.push_back(
-        fmt::format("{:.4g}, {:.2g} below {:.4g}: {}", v.value, v.shortfall, r.report.asked, r.text(v.constraint)));
+    lines.push_back(fmt::format("{:.4g}, {:.2g} below {:.4g}: {}", v.value, v.shortfall, v.value + v.shortfall,
+                                r.text(v.constraint)));
     total += v.shortfall;
   }
   return fmt::format("{} of the {} violate their bound, by {:.6g} in all:\n", lines.size(),
-                     r.options.constraints == Constraints::regular ? "dual lengths/l" : "h/l and d/l", total) +
+                     kept_text(r.options.constraints), total) +
          listed(lines);
 }
 
@@ -199,6 +211,9 @@ std::string constraint_text(const WeightConstraint& c, const TetInput& input, co
   if (c.kind == Kind::crossing) return fmt::format("d of edge {} from vertex {}", edge, number(c.p));
   const std::string face = fmt::format("{}-{}", edge, number(c.r));
   if (c.kind == Kind::height) return fmt::format("h over edge {} in face {}", edge, face);
+  if (c.kind == Kind::dual) {
+    return fmt::format("sum of h over edge {} in faces {} and {}-{}", edge, face, edge, number(c.s));
+  }
   if (c.kind == Kind::height_over_face) return fmt::format("h over face {} towards vertex {}", face, number(c.s));
   return fmt::format("dual length of face {} between vertices {} and {}", face, number(c.s), number(c.t));
 }

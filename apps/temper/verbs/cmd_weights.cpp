@@ -20,6 +20,7 @@
 #include "system/system.hpp"
 #include "temper/detail/certificate_io.hpp"
 #include "temper/detail/connectivity.hpp"
+#include "temper/detail/criterion.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/optimize.hpp"
@@ -36,14 +37,12 @@ std::string option_name(Constraints constraints) {
   return text;
 }
 
-constexpr Choice<WeightGoal> kModes[] = {{"margin", WeightGoal::margin},
-                                         {"change", WeightGoal::change},
-                                         {"elastic", WeightGoal::elastic},
-                                         {"center", WeightGoal::center},
-                                         {"accuracy", WeightGoal::accuracy}};
+constexpr Choice<WeightGoal> kModes[] = {{"margin", WeightGoal::margin},     {"change", WeightGoal::change},
+                                         {"elastic", WeightGoal::elastic},   {"center", WeightGoal::center},
+                                         {"accuracy", WeightGoal::accuracy}, {"least", WeightGoal::least}};
 enum class From { zero, input };
 constexpr Choice<From> kFrom[] = {{"zero", From::zero}, {"input", From::input}};
-/// The schemes of --mode accuracy: the targets of optimize that lower an offset.
+/// The schemes: the targets of optimize that lower an offset, for --mode accuracy, and that have constraints.
 constexpr Choice<Scheme> kSchemes[] = {
     {"any", Scheme::all}, {"vertex", Scheme::vertex}, {"cell", Scheme::cell}, {"stars", Scheme::stars}};
 
@@ -147,8 +146,12 @@ void add_goal(Command& command, WeightsSettings& s) {
       "Goal of the search. 'margin' tests if good weights exist, and finds the best margin. 'change' makes the least "
       "change that gives the margin. If no weights have the margin, 'elastic' finds the least violation. 'center' "
       "finds the greatest product of all h/l, d/l and 1 - d/l, or of all dual lengths/l. 'accuracy' finds the least "
-      "offsets between the midpoints of edges and their duals, with the margin.");
-  add_choice(command, "--for", kSchemes, s.scheme, "Scheme whose error --mode accuracy lowers, as for optimize.");
+      "offsets between the midpoints of edges and their duals, with the margin. 'least' finds the least sum of squares "
+      "of the changes of d/l, with the margin or a smaller one.");
+  add_choice(
+      command, "--for", kSchemes, s.scheme,
+      "Scheme of the solver, as for optimize. It sets --mode least, and what the scheme needs: --constraints "
+      "coefficients for 'vertex', distances for 'cell'. With --mode accuracy it is the scheme whose error falls.");
   add_number(command, "--margin", s.options.margin, {0, 0.5, true},
              "Least h/l, d/l, 1 - d/l or dual length/l in the mesh. With --mode margin or accuracy, half of the best "
              "margin is used if it is less.");
@@ -186,6 +189,8 @@ void add_options(Command& command, WeightsSettings& s) {
       {"IN -o OUT [options]",
        "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
        "  temper weights ring.vtu -o best.vtu --mode accuracy --for vertex\n"
+       "  # what a solver with unknowns in cells needs, and no more\n"
+       "  temper weights ring.vtu -o cells.vtu --for cell\n"
        "  temper weights best.vtu -o plain.vtu --zero\n"
        "  temper weights ring.vtu -o inside.vtu --constraints heights-only\n"
        "  # a mesh without such weights: write the proof, check it, and find the least violation\n"
@@ -197,6 +202,15 @@ void add_options(Command& command, WeightsSettings& s) {
        "  temper example random --vertices 40 -o random.vtu\n"
        "  temper weights random.vtu -o flipped.vtu --constraints heights-only --connectivity search\n",
        {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal, Exit::infeasible}});
+}
+
+/// What a scheme needs, unless other options say so. --mode accuracy takes the factors of the scheme alone.
+void follow_scheme(const Command& command, WeightsSettings& s) {
+  if (!command.was_given("--for") || s.options.goal == WeightGoal::accuracy) return;
+  if (!command.was_given("--mode")) s.options.goal = WeightGoal::least;
+  if (!command.was_given("--constraints"))
+    s.options.constraints =
+        std::ranges::find(all_constraints(), name(criterion_of(s.scheme)), &ConstraintsInfo::name)->constraints;
 }
 
 void check_usage(const Command& command, const WeightsSettings& s) {
@@ -231,7 +245,6 @@ void check_usage(const Command& command, const WeightsSettings& s) {
         "Next: temper weights IN --zero -o OUT");
   }
   if (!search && command.was_given("--time-limit")) lacks("--time-limit", "--connectivity search");
-  if (s.options.goal != WeightGoal::accuracy && command.was_given("--for")) lacks("--for", "--mode accuracy");
   if (s.options.goal == WeightGoal::center && command.was_given("--margin")) conflict("--mode center", "--margin");
 }
 
@@ -434,6 +447,7 @@ Exit run_weights(const Arguments& arguments) {
   WeightsSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
+  follow_scheme(command, s);
   check_usage(command, s);
   const SchemeWeights factors = scheme_weights(s.scheme);
   s.options.offset_factor = factors.offset_factor;
