@@ -24,8 +24,8 @@ constexpr std::size_t kStepsToGain = 10;
 constexpr double kLeastDecrease = 5e-3;
 // Below, the margin is not certain in doubles.
 constexpr double kLeastMargin = 1e-9;
-// The rounding of a cosine.
-constexpr double kRounding = 1e-12;
+// A cosine beyond the limit may grow by this, a fiftieth of a degree: with less its corners end the way of all.
+constexpr double kRoomOfCosine = 1e-4;
 
 [[nodiscard]] WeightedPoint operator*(double f, const WeightedPoint& p) { return {f * p.x, f * p.y, f * p.z, f * p.w}; }
 [[nodiscard]] WeightedPoint operator+(const WeightedPoint& a, const WeightedPoint& b) {
@@ -112,7 +112,7 @@ Accuracy::Accuracy(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const A
       if (has_joined_sides(mesh, h, criterion_)) keep(mesh.opposite(mesh.twin(h)));
     }
     if (stays) std::for_each(mesh.corners(t).begin(), mesh.corners(t).end(), keep);
-    most_cosine_[t] = std::max(limits.most_cosine, largest_dihedral_cosine(mesh, t) + kRounding);
+    most_cosine_[t] = std::max(limits.most_cosine, largest_dihedral_cosine(mesh, t) + kRoomOfCosine);
   }
   now_ = value();
 }

@@ -63,7 +63,7 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
     record();
     if (best_bad_ == 0) input_ = draft_;
     if (criterion_ == Criterion::well_centered || best_bad_ > 0) make_good();
-    if (!stopped_early() && !lowers_hot(options_)) lower_errors();
+    if (!stopped_early() && lowers_errors()) lower_errors();
     if (!stopped_early() && lowers_hot(options_)) lower_hot();
     return end();
   }
@@ -254,6 +254,10 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
     const double of_input = largest_dihedral_cosine(mesh, hooks_.executor);
     if (options_.guard.angle == 0) return 1 - kAngleKept * (1 - of_input);
     return std::max(of_input, sine_cosine(std::numbers::pi / 180 * options_.guard.angle).cosine);
+  }
+  /// A run without a scheme lowers errors if there is a model of them: offsets alone cost as much as all sweeps.
+  [[nodiscard]] bool lowers_errors() const {
+    return criterion_ != Criterion::well_centered || (error_ != nullptr && !lowers_hot(options_));
   }
   bool is_stopped(double fraction) {
     ask(fraction, [](Progress&) {});
