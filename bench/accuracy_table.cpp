@@ -88,7 +88,7 @@ bool print_variant(const std::vector<NamedMesh>& meshes, const Variant& variant,
 
 std::vector<Variant> targets_of_solvers() {
   std::vector<Variant> list;
-  for (const char* name : {"valid", "any", "vertex", "cell", "stars"}) {
+  for (const char* name : {"any", "vertex", "cell", "stars"}) {
     list.push_back({std::string("`--for ") + name + "`", *options_for(name)});
   }
   list.push_back({"`--set objective=energy`", {.objective = Objective::energy}});

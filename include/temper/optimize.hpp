@@ -74,6 +74,13 @@ enum class BoundaryVertices {
           ///< triangles with all corners there. The old vertices stay bit for bit
 };
 
+/// The part of the mesh that a run may change.
+enum class Change {
+  all,    ///< The whole mesh
+  least,  ///< Places that violate the criterion of the scheme (temper/detail/criterion.hpp). All else stays, bit for
+          ///< bit
+};
+
 /// The time at which neighbors see a new position or weight (§5.2, §6.6.2).
 enum class Updates {
   immediate,  ///< At once
@@ -351,7 +358,11 @@ struct OptimizeOptions {
   ///
   /// `solver`, `order`, `tolerance` and `stopping` apply to the first phase.
   std::optional<Objective> objective = {};
-  Scheme scheme = Scheme::all;  ///< Scheme of Objective::accuracy and solver_error
+  Scheme scheme = Scheme::all;  ///< Scheme of Objective::accuracy and solver_error, and of the criterion
+  /// Part of the mesh that may change. Change::least begins at the places that violate criterion_of(scheme). It flips
+  /// edges there, finds weights, moves vertices, and takes more rings until the place is good. An input that meets the
+  /// criterion comes back bit for bit. Only if many places are bad, or stay bad, the whole mesh changes.
+  Change change = Change::all;
   AccuracyOptions accuracy = {};
   SolverErrorOptions solver_error = {};
   EnergyKind energy = EnergyKind::BP;
@@ -461,6 +472,14 @@ struct SizeChange {
 };
 [[nodiscard]] const ReportTable& table_of(const SizeChange*);
 
+/// What a run changed, by the numbers of the input.
+struct ChangeCounts {
+  std::size_t vertices_moved = 0;   ///< Vertices of the input at another place
+  std::size_t weights_changed = 0;  ///< Vertices of the input with another weight
+  std::size_t edges_changed = 0;    ///< Edges of the result that the input does not have
+};
+[[nodiscard]] const ReportTable& table_of(const ChangeCounts*);
+
 /// The part of a report that runs of triangles and of tetrahedra share.
 struct RunReport {
   Stopped stopped = Stopped::converged;
@@ -490,7 +509,8 @@ struct OptimizeReport : RunReport {
   std::size_t bad_before = 0;                 ///< Triangles of the input that are not well-centered, before any flip
   std::size_t bad_after = 0;                  ///< Triangles of the result that are not well-centered
   SizeChange size;
-  std::vector<std::string> notes;  ///< Notes for the user, in sentences
+  std::optional<ChangeCounts> changed = {};  ///< With Change::least
+  std::vector<std::string> notes;            ///< Notes for the user, in sentences
 };
 [[nodiscard]] const ReportTable& table_of(const OptimizeReport*);
 

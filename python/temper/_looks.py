@@ -61,7 +61,7 @@ class OptimizeReport(Record):
     """The mesh before and after, for notebooks."""
 
     def _rows(self: Any) -> list[tuple[str, str]]:
-        shown_below = ("vertices", "hidden_vertices", "bad_before", "bad_after", "size", "data", "notes")
+        shown_below = ("vertices", "hidden_vertices", "bad_before", "bad_after", "size", "changed", "data", "notes")
         rows = [row for row in Record._rows(self) if row[0] not in shown_below]
         rows.insert(1, ("bad triangles" if self.size else "bad tetrahedra", f"{self.bad_before} → {self.bad_after}"))
         if self.size:

@@ -320,6 +320,18 @@ class SizeChange(Record):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class ChangeCounts(Record):
+    """What a run changed, by the numbers of the input."""
+
+    vertices_moved: int
+    """Vertices of the input at another place."""
+    weights_changed: int
+    """Vertices of the input with another weight."""
+    edges_changed: int
+    """Edges of the result that the input does not have."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class SweepRecord(Record):
     """One sweep over all vertices."""
 
@@ -373,6 +385,8 @@ class OptimizeReport(_looks.OptimizeReport):
     """The same number of the result."""
     size: SizeChange | None
     """Change of the sizes; absent for tetrahedra."""
+    changed: ChangeCounts | None
+    """What the run changed, with change = least."""
     notes: list[str]
     """Notes for the user, in sentences."""
     history: list[SweepRecord] = dataclasses.field(repr=False)

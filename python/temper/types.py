@@ -11,7 +11,7 @@ from ._measure import QualityMeasure, TetrahedronQuality, TriangleQuality
 from ._optimize import Replay, Snapshot
 from ._outline import OutlineFile, OutlineMesh
 from ._certificate import Certificate, WeightConstraint
-from ._reports import CrossingConflict, CrossingSide, Cure, DataReport, DecSummary, DiffusionErrors, DiffusionMatrices, EdgeConflict, ErrorMatrices, ErrorNorms, ErrorSystem, Explanation, FaceHeight, FanCenter, FieldFrame, Histogram, Histograms, OptimizeReport, Progress, Quality, Reason, SizeChange, SweepRecord, TetDataReport, TetDecSummary, TetExplanation, TetHistograms, TetQuality, TetReason, TraceEvent, WorstTet, WorstTriangle
+from ._reports import ChangeCounts, CrossingConflict, CrossingSide, Cure, DataReport, DecSummary, DiffusionErrors, DiffusionMatrices, EdgeConflict, ErrorMatrices, ErrorNorms, ErrorSystem, Explanation, FaceHeight, FanCenter, FieldFrame, Histogram, Histograms, OptimizeReport, Progress, Quality, Reason, SizeChange, SweepRecord, TetDataReport, TetDecSummary, TetExplanation, TetHistograms, TetQuality, TetReason, TraceEvent, WorstTet, WorstTriangle
 from ._measure_errors import FieldErrors, OperatorErrors, ErrorField, ErrorLevel, ErrorReport, DiffusionProblem, TetErrorReport
 from ._weights import (
     BestMargin,

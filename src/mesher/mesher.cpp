@@ -235,7 +235,8 @@ class Mesher {
   std::optional<InputError> improve(OutlineMesh& made, OptimizeOptions options) const {
     const double left = deadline_.time_left();
     OptimizeHooks hooks = problem_.hooks;
-    options.guard = {}, hooks.solvers.squared_errors = {};  // the Delaunay mesh is not the user's
+    options.guard = {}, hooks.solvers.squared_errors = {};  // the Delaunay mesh is not the user's: all may change
+    options.change = Change::all;
     if (left > 0 && !(options.time_limit > 0 && options.time_limit < left)) options.time_limit = left;
     Expected<OptimizeReport> report = optimize(made.mesh, options, hooks);
     if (!report) return report.error();

@@ -62,9 +62,8 @@ void improve(Candidate& best, std::optional<MeshScore>& known, const Settings& s
 // A cure that finds nothing in so many moves gives way to repairs, which insert more vertices.
 constexpr int kMovesBeforeRepairs = 300;
 
-/// Makes one attempt: restarts, repairs, and the phases for accuracy.
-Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run,
-                            std::optional<AccuracySizes>& sizes) {
+/// Makes the mesh well-centered, or comes near to it: restarts and repairs.
+Expected<Candidate> well_centered(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
   auto found = is_ready_for_accuracy(input.any_order(), settings) ? Candidate{input.copy()}
                                                                   : best_restart(input, settings, state, run);
   if (!found) return found;
@@ -81,6 +80,38 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
     best = refined(std::move(best), settings, state, run);
     if (coarsens) best = coarsened(std::move(best), settings, state, run, settings.options.coarsen_moves);
   }
+  return best;
+}
+
+/// Changes only places that violate the criterion, or the whole mesh if this leaves fewer violations.
+Expected<Candidate> with_least_change(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
+  auto found = mended(input, settings, state, run);
+  if (!found) return found.error();
+  Candidate& best = found->candidate;
+  if (found->left == 0 || !run.goes_on()) return std::move(best);
+  const BestBefore kept(run.best_before, &best.work);
+  Driver(best.work, settings, state, run).recorder().returned_to(-1);
+  Settings of_all = settings;
+  of_all.options.change = Change::all;
+  of_all.criterion = Criterion::well_centered;
+  auto whole = well_centered(input, of_all, state, run);
+  if (!whole) return whole;
+  if (count(whole->work.mesh, settings) < count(best.work.mesh, settings)) {
+    run.facts.many_are_bad = found->many;
+    run.facts.places_left = found->left;
+    return whole;
+  }
+  Driver(best.work, settings, state, run).recorder().returned_to(best.sweep);
+  return std::move(best);
+}
+
+/// Makes one attempt: restarts, repairs, and the phases for accuracy.
+Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run,
+                            std::optional<AccuracySizes>& sizes) {
+  auto found = settings.changes_least() ? with_least_change(input, settings, state, run)
+                                        : well_centered(input, settings, state, run);
+  if (!found || run.facts.gave_up || settings.changes_least()) return found;
+  Candidate best = *std::move(found);
   std::optional<MeshScore> known;
   if (sizes) improve<AccuracyPhase>(best, known, settings, run, *sizes);
   if (settings.objective == Objective::solver_error) improve<SolverErrorPhase>(best, known, settings, run, *sizes);
@@ -139,7 +170,9 @@ Candidate least_error(Candidate best, InputMesh& given, const RunEnd& end, Run& 
   const double ratio = judge.largest_ratio(best.work.mesh);
   Judged judged = {std::move(best), ratio};
   if (ratio > 1 && !sound) weigh_ties_instead(judged, judge, input, {by_weights, end.state, end.of_input}, run);
-  run.facts.keeps_input = judged.ratio > 1 && sound;
+  const Criterion criterion = criterion_of(settings.options.scheme);
+  run.facts.keeps_input =
+      sound && (judged.ratio > 1 || !meets(judged.candidate.work.mesh, criterion, settings.executor()));
   if (judged.ratio > 1) run.facts.error_ratio = judged.ratio;
   return std::move(judged.candidate);
 }
@@ -162,11 +195,15 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
 
   std::optional<AccuracySizes> sizes;
   // A listener, the field of a band and a model of errors may refer to the mesh.
-  const bool is_free = hooks.exclusive && !hooks.best_so_far && !settings.size_field && settings.errors == nullptr;
+  const bool is_free = hooks.exclusive && !hooks.best_so_far && !settings.size_field && settings.errors == nullptr &&
+                       !settings.changes_least();
   InputMesh input(mesh, is_free, settings.policy.order, hooks.executor);
   const InputMeasures of_input(input, settings, sizes);
   run.facts.meets_limits = meets_limits_of_client(input.any_order(), settings);
-  auto found = run.facts.meets_limits ? Candidate{input.copy()} : attempt(input, settings, state, run, sizes);
+  run.facts.meets_criterion =
+      settings.changes_least() && meets(input.any_order(), settings.criterion, settings.executor());
+  const bool comes_back = run.facts.meets_limits || run.facts.meets_criterion;
+  auto found = comes_back ? Candidate{input.copy()} : attempt(input, settings, state, run, sizes);
   if (!found) return found.error();
   const RunEnd end = {settings, state, of_input};
   Candidate best = least_error(*std::move(found), input, end, run);

@@ -48,6 +48,16 @@ const ReportTable& table_of(const SizeChange*) {
   return table;
 }
 
+const ReportTable& table_of(const ChangeCounts*) {
+  using C = ChangeCounts;
+  static const ReportTable table =
+      report_table<C>("ChangeCounts", "What a run changed, by the numbers of the input.",
+                      {{"vertices_moved", "Vertices of the input at another place", "", &C::vertices_moved},
+                       {"weights_changed", "Vertices of the input with another weight", "", &C::weights_changed},
+                       {"edges_changed", "Edges of the result that the input does not have", "", &C::edges_changed}});
+  return table;
+}
+
 const ReportTable& table_of(const OptimizeReport*) {
   using R = OptimizeReport;
   static const ReportTable table = run_table<R>(
@@ -60,6 +70,7 @@ const ReportTable& table_of(const OptimizeReport*) {
         &R::bad_before, ShownIn::libraries},
        {"bad_after", "The same number of the result", "", &R::bad_after, ShownIn::libraries},
        {"size", "Change of the sizes; absent for tetrahedra", "", &R::size},
+       {"changed", "What the run changed, with change = least", "", &R::changed, ShownIn::if_any},
        {"notes", "Notes for the user, in sentences", "", [](const R& r) {
           std::vector<TextWithOptions> notes;
           for (const std::string& note : r.notes) notes.push_back({note});

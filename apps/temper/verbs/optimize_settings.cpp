@@ -78,6 +78,7 @@ void add_common(Command& command, OptimizeSettings& s) {
   command.option("--output").sentence = "File to write; its suffix selects the format. '-': standard output.";
   add_purpose(command, s);
   add_keep(command, s);
+  add_flag_of(command, "change", s.assignments).sentence = "Change all, or only places that lack what TARGET needs.";
   add_flag_of(command, "boundary", s.assignments).sentence =
       "The boundary stays bit for bit, or its vertices slide along straight lines and in planes, or its edges are "
       "split.";

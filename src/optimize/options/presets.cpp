@@ -42,12 +42,8 @@ void keep_measures(Options& o, Client client) {
 
 constexpr auto kTargets = std::to_array<Preset>({
     {"any", "Any solver on a dual mesh: large margins, smaller errors", kForBoth, [](Options&) {}},
-    {"valid", "Valid triangles alone: the fastest run", kForBoth,
-     [](Options& o) {
-       o.objective = Objective::accuracy;
-       o.accuracy.sweeps = 0;
-       o.accuracy.margin = 0.02;
-     }},
+    {"valid", "Valid triangles alone: as any, but only bad places change", kForBoth,
+     [](Options& o) { o.change = Change::least; }},
     {"vertex", "Unknowns at vertices: MODFLOW, DEVSIM, exterior calculus", kForBoth,
      [](Options& o) { o.scheme = Scheme::vertex; }},
     {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy", kForBoth,
@@ -136,7 +132,7 @@ constexpr auto kEfforts = std::to_array<Preset>({
     {"high", "More sweeps and repairs, which may add and remove vertices. More steps lower the solver's own error",
      kForBoth,
      [](Options& o) {
-       if (o.accuracy.sweeps > 0) o.accuracy.sweeps = 200;
+       o.accuracy.sweeps = 200;
        o.accuracy.tolerance = 1e-7;
        o.repair = Repair::vertices;
        o.repair_trials = 100'000;

@@ -112,6 +112,22 @@ Rules rules_of_combinations(const OptimizeOptions& o) {
   };
 }
 
+/// Options that contradict a run that changes the least.
+Rules rules_of_least_change(const OptimizeOptions& o) {
+  if (o.change == Change::all) return {};
+  OptimizeOptions by_default = o;
+  by_default.objective.reset();
+  return {
+      {objective_of(by_default) == Objective::energy || o.objective == Objective::energy,
+       "`change=least` repairs places with energy BP; expected its default, and no switch of the paper but `order` and "
+       "`seed`"},
+      {o.objective == Objective::solver_error || o.problem,
+       "`change=least` lowers no error; expected `change=all` for `objective=solver_error` and for a problem"},
+      {o.flips != Flips::immediate, "`change=least` needs `flips=immediate`, since it makes edges regular"},
+      {o.coarsen.has_value(), "`coarsen` looks for another mesh; expected `change=all`"},
+  };
+}
+
 /// Options that contradict each other in meshes of tetrahedra.
 Rules rules_of_tetrahedra(const OptimizeOptions& o) {
   constexpr auto kTetrahedra = CellKinds::tetrahedra;
@@ -253,8 +269,8 @@ Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
 
 Expected<void> check_together(const OptimizeOptions& options, CellKinds cells) {
   if (auto right = check_options(options, cells); !right) return right;
-  for (const auto rules :
-       {rules_of_updates, rules_of_inversions, rules_of_combinations, rules_of_coarsening, rules_of_tetrahedra}) {
+  for (const auto rules : {rules_of_updates, rules_of_inversions, rules_of_combinations, rules_of_coarsening,
+                           rules_of_least_change, rules_of_tetrahedra}) {
     for (const Rule& rule : rules(options)) {
       if (rule.broken && fits(rule.cells, cells)) return invalid(rule.sentence);
     }
@@ -288,7 +304,7 @@ Objective objective_of(const OptimizeOptions& o) {
 
 bool may_lower_solver_error(const OptimizeOptions& o) {
   const Objective objective = objective_of(o);
-  const bool of_one = o.scheme == Scheme::vertex || o.scheme == Scheme::cell;
+  const bool of_one = o.change == Change::all && (o.scheme == Scheme::vertex || o.scheme == Scheme::cell);
   return objective == Objective::solver_error ||
          (objective == Objective::accuracy && of_one && o.solver_error.most_vertices > 0);
 }
@@ -354,6 +370,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   }
   s.hooks = hooks;
   s.objective = objective_of(options);
+  if (s.changes_least()) s.criterion = criterion_of(options.scheme);
   s.policy = Policy(options);
   if (begins_with_odt(s, mesh)) {
     s.policy.first_energy = EnergyKind::ODT;

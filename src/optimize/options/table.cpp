@@ -34,6 +34,7 @@ constexpr auto names_of(FlipLimit) { return std::to_array<Name>({"unlimited", "b
 constexpr auto names_of(Repair) { return std::to_array<Name>({"none", "perturb", "vertices"}); }
 constexpr auto names_of(BoundaryVertices) { return std::to_array<Name>({"keep", "slide", "split"}); }
 constexpr auto names_of(InterfaceVertices) { return std::to_array<Name>({"fixed", "sliding"}); }
+constexpr auto names_of(Change) { return std::to_array<Name>({"all", "least"}); }
 constexpr auto names_of(Updates) { return std::to_array<Name>({"immediate", "deferred"}); }
 constexpr auto names_of(Visits) { return std::to_array<Name>({"once", "twice"}); }
 constexpr auto names_of(SearchRadius) { return std::to_array<Name>({"rms", "max", "min"}); }
@@ -236,6 +237,10 @@ constexpr OptionRow kAccuracyRows[] = {
                           "Scheme of the solver. vertex: unknowns at vertices. cell: unknowns at orthocenters, "
                           "two-point flux. stars: diagonal Hodge stars. all: each of these, with larger margins",
                           {.cells = kBoth, .for_tetrahedra = "all|vertex|cell", .needs = {kForAccuracy}}),
+    row<&Options::change>("change",
+                          "Part of the mesh that may change. least: only the places that violate what `scheme` needs. "
+                          "All else stays, bit for bit, unless many places are bad, or stay bad",
+                          {.common = true}),
     row<kAccuracy, &Accuracy::margin>(
         "margin", "Least margin in every triangle: h/l, d/l and 1 - d/l stay above it",
         {.range = inside(0, kMostMargin), .absent = "0.1, or 0.02 if `scheme` is one scheme", .needs = {kForAccuracy}}),

@@ -10,6 +10,11 @@
 
 namespace temper {
 
+Constraints constraints_of(Criterion criterion) {
+  if (criterion == Criterion::well_centered) return Constraints::well_centered;
+  return criterion == Criterion::coefficients ? Constraints::coefficients : Constraints::distances;
+}
+
 bool may_be_removed(const Mesh& mesh, VertexId v, bool is_own) {
   if (mesh.is_isolated(v) || mesh.is_fixed(v)) return false;
   return is_own || lines_at(mesh, v).empty();
@@ -83,14 +88,14 @@ bool LocalCopy::remove(VertexId v) {
 bool LocalCopy::assign_weights(VertexMask free, double margin) {
   Mesh compact = work_.mesh;
   const Compaction kept = compact.compact();
-  const TriangleDemand demand(compact, Constraints::well_centered);
+  const TriangleDemand demand(compact, constraints_of(settings_.criterion));
   const VertexWeights weights = demand.weights();
   VertexMask mask(compact.n_vertices(), 0);
   for (const VertexId v : compact.vertices()) {
     if (!is_frozen(kept.vertices[v])) mask[v] = free[kept.vertices[v]];
   }
   bool all = true;
-  for (const Region& region : regions_of(demand, mask)) {
+  for (const Region& region : regions_of(demand, mask, demand.has_duals())) {
     const RegionChange found = least_violation({demand, weights, margin}, region, *settings_.lp);
     if (found.status != LpStatus::optimal) {
       all = false;

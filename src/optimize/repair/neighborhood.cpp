@@ -8,7 +8,9 @@
 
 #include "base/assert.hpp"
 #include "base/sort_unique.hpp"
+#include "geometry/surface.hpp"
 #include "mesh/mesh_editor.hpp"
+#include "regularity/duals.hpp"
 #include "temper/detail/geometry.hpp"
 #include "topology/outgoing.hpp"
 #include "topology/rings.hpp"
@@ -135,6 +137,7 @@ void copy_edges(const Mesh& mesh, const std::vector<TriangleId>& triangles, Neig
     }
     around.rim.push_back({around.mesh.origin(h), around.mesh.target(h)});
     around.beyond.push_back(mesh.point(mesh.opposite(twin)));
+    around.region_beyond.push_back(mesh.region(Mesh::triangle(twin)));
   }
 }
 
@@ -182,6 +185,24 @@ bool rim_is_regular(const Neighborhood& around, const Mesh& local) {
     if (conflict == Sign::positive) return false;
   }
   return true;
+}
+
+std::vector<ViolatedEdge> violated_edges(const Neighborhood& around, const Mesh& local, Criterion criterion) {
+  std::vector<ViolatedEdge> all = violated_edges(local, criterion);
+  // Alone, an edge of the rim has one side, which is a part if the regions differ.
+  for (std::size_t i = 0; i < around.rim.size(); ++i) {
+    const HalfedgeId h = local.find_halfedge(around.rim[i][0], around.rim[i][1]);
+    if (!h.valid() || local.is_diagonal(h)) continue;
+    if (local.region(Mesh::triangle(h)) == around.region_beyond[i])
+      std::erase_if(all, [&](const ViolatedEdge& violated) { return violated.edge == h; });
+    const Space& space = local.space();
+    const auto [a, b, c] = local.points(local.origin(h), local.target(h), local.opposite(h));
+    const WeightedPoint d = space.image(around.beyond[i], a);
+    const Sign sign = -power_test(space, a, b, c, d);
+    if (!allows(criterion, sign))
+      all.push_back({h, DualKind::inside, with_sign(dual_length(space, a, b, c, d) / distance(space, a, b), sign)});
+  }
+  return all;
 }
 
 std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Neighborhood& around,

@@ -11,6 +11,7 @@
 
 #include "optimize/flips/flipper.hpp"
 #include "optimize/flips/guard.hpp"
+#include "temper/detail/criterion.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -21,6 +22,7 @@ struct Neighborhood {
   std::vector<VertexId> vertices;            ///< of the whole mesh, by local number
   std::vector<std::uint8_t> frozen;          ///< by local number
   std::vector<WeightedPoint> beyond;         ///< by rim edge: opposite corner of the triangle outside
+  std::vector<std::int32_t> region_beyond;   ///< by rim edge: region of the triangle outside
   std::vector<std::array<VertexId, 2>> rim;  ///< edges of the rim that have a triangle outside, by local numbers
   std::vector<OutsideNeighbors> outside;     ///< by local number
   DividedEdges divided;                      ///< of the run's own vertices on lines, by local number
@@ -37,6 +39,10 @@ struct Neighborhood {
 
 /// Says exactly whether the unconstrained edges of the rim are regular with the present local mesh.
 [[nodiscard]] bool rim_is_regular(const Neighborhood& around, const Mesh& local);
+/// Returns the edges of the present local mesh that violate the criterion in the whole mesh: edges of the rim have two
+/// sides there. Precondition: the criterion is not well_centered.
+[[nodiscard]] std::vector<ViolatedEdge> violated_edges(const Neighborhood& around, const Mesh& local,
+                                                       Criterion criterion);
 
 /// Applies the events of a trial on `around` to its mesh, which must not have changed since, and traces them. Removed
 /// vertices stay isolated until the caller compacts. Returns the new vertices of the place: they include all corners of

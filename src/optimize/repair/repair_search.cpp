@@ -26,8 +26,6 @@ constexpr int kMostFailures = 60, kMostFailuresOfMoves = 10;
 // An edit that helps lowers the violation by this part, or the number of bad triangles.
 constexpr double kHelps = 0.01;
 constexpr std::uint32_t kSidewaysChoice = 4;
-// Cost of a linear program, in trials.
-constexpr int kTrialsOfAProgram = 20;
 // With a guard a trial takes this many times as long.
 constexpr std::size_t kVisitsByGuard = 2;
 // Repairs are local. Where most triangles are bad they gain little, so a trial counts this many times.

@@ -49,7 +49,7 @@ class Trial {
     if (lacks_sweeps(edit)) return {true, defect_of(copy_.mesh()), copy_.take_events()};
     if (!std::holds_alternative<AssignWeights>(edit)) sweep();  // the first γ of sweeps would undo the weights
     TrialResult result;
-    result.defect = defect_of(copy_.mesh(), settings_.accuracy);
+    result.defect = defect_of(around_, copy_.mesh(), settings_);
     result.valid = copy_.is_regular() && is_guarded();
     result.events = copy_.take_events();
     return result;
@@ -128,7 +128,8 @@ class Trial {
     VertexMask free(mesh.n_vertices(), 0);
     const auto corners = mesh.corners(around_.seed);
     for (const VertexId v : corners) free[v] = 1;
-    grow(TriangleDemand(mesh, Constraints::well_centered), free, {corners.begin(), corners.end()}, kWeighedRings);
+    grow(TriangleDemand(mesh, constraints_of(settings_.criterion)), free, {corners.begin(), corners.end()},
+         kWeighedRings);
     copy_.assign_weights(std::move(free), kWeighedMargin);
     return true;
   }
@@ -188,6 +189,8 @@ class Trial {
     const auto all = mesh.triangles();
     copy_.sweep([&](int /*sweep*/, double gamma) {
       if (settings_.guard != nullptr && !copy_.has_moved()) return true;  // it refuses all steps
+      if (settings_.criterion != Criterion::well_centered)
+        return violated_edges(around_, mesh, settings_.criterion).empty();
       if (gamma >= kSharp || settings_.accuracy.keeps_lengths()) return false;
       return std::all_of(all.begin(), all.end(), is_good);
     });
@@ -213,6 +216,16 @@ LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model) {
     if (!is_bad(mesh, t)) continue;
     ++s.bad;
     s.violation += violation_of(mesh, t);
+  }
+  return s;
+}
+
+LocalDefect defect_of(const Neighborhood& around, const Mesh& local, const Settings& settings) {
+  if (settings.criterion == Criterion::well_centered) return defect_of(local, settings.accuracy);
+  LocalDefect s;
+  for (const ViolatedEdge& violated : violated_edges(around, local, settings.criterion)) {
+    ++s.bad;
+    s.violation -= violated.dual_over_l;
   }
   return s;
 }

@@ -52,17 +52,23 @@ struct Refine {
 };
 using Edit = std::variant<JustSweep, Perturb, AssignWeights, Insert, Split, CutCorner, Remove, Refine>;
 
+/// Cost of AssignWeights, in trials of other edits.
+inline constexpr int kTrialsOfAProgram = 20;
+
 /// Says whether the edit brings new vertices.
 [[nodiscard]] bool inserts_vertices(const Edit& edit);
 
 /// The distance of a mesh from well-centered: first the number of bad triangles, then how bad they are and how much
-/// length edges lack (optimize/run/judge.hpp).
+/// length edges lack (optimize/run/judge.hpp). For another criterion: the number of violated duals, and the sum of
+/// their lengths over those of their edges.
 struct LocalDefect {
   std::size_t bad = 0;
   double violation = 0;  ///< Σ of the worst of −h/ℓ, −d/ℓ and d/ℓ − 1 over bad triangles, plus missing lengths
   friend auto operator<=>(const LocalDefect&, const LocalDefect&) = default;
 };
 [[nodiscard]] LocalDefect defect_of(const Mesh& mesh, const AccuracyModel& model = {});
+/// The distance of the place from the criterion of the settings, with this mesh in it.
+[[nodiscard]] LocalDefect defect_of(const Neighborhood& around, const Mesh& local, const Settings& settings);
 
 /// The result of a trial.
 struct TrialResult {

@@ -53,14 +53,43 @@ class Notes {
     add(std::string("the input meets ") + limits + ": it comes back as it was");
   }
 
+  void note_criterion_is_met() {
+    add("the input has all that the target needs (" +
+        std::string(criteria_table()[static_cast<std::size_t>(settings_.criterion)].sentence) +
+        "): it comes back as it was");
+  }
+
+  /// Other places than the bad ones have changed, too.
+  void note_whole_mesh(const RunFacts& facts) {
+    const std::string at = count_of(facts.places_left, "triangle", "triangles");
+    add(facts.many_are_bad ? at + " violated what the target needs: so many that the whole mesh was changed"
+                           : "changes nearby left " + at + " at violations: the whole mesh was changed");
+  }
+
+  void note_changes() {
+    const ChangeCounts& c = *report_.changed;
+    add(count_of(c.vertices_moved, "vertex", "vertices") + " moved, " +
+        count_of(c.weights_changed, "weight", "weights") + " and " + count_of(c.edges_changed, "edge", "edges") +
+        " changed; all else is as it was");
+  }
+
+  void note_violations(std::size_t n) {
+    if (n == 0) return;
+    add(settings_.criterion == Criterion::well_centered
+            ? count_of(n, "triangle is", "triangles are") + " still not well-centered"
+            : count_of(n, "dual of an edge still violates", "duals of edges still violate") +
+                  " what the target needs: explain tells more");
+  }
+
   /// Measured errors on structured grids may rise.
   void note_errors(double ratio, bool input_returned) {
     const std::string times = to_text(std::round(1000 * ratio) / 1000);
-    add(input_returned
-            ? "the input is well-centered, and a change would make measured errors up to " + times + " times as large"
-            : "measured errors are up to " + times +
-                  " times the input's: where errors of neighbors cancel, "
-                  "a change of the mesh makes some of them larger");
+    const bool is_any = criterion_of(options_.scheme) == Criterion::well_centered;
+    const std::string good = is_any ? "the input is well-centered" : "the input has all that the target needs";
+    add(input_returned ? good + ", and a change would make measured errors up to " + times + " times as large"
+                       : "measured errors are up to " + times +
+                             " times the input's: where errors of neighbors cancel, "
+                             "a change of the mesh makes some of them larger");
   }
 
   /// HOT energies may make more triangles bad. `bad_before`: bad part of the input's triangles.
@@ -221,6 +250,10 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
     notes.note_facts(facts);
   }
   if (facts.meets_limits) notes.note_limits_are_met();
+  if (facts.meets_criterion) notes.note_criterion_is_met();
+  if (facts.places_left > 0) notes.note_whole_mesh(facts);
+  if (settings.changes_least() && !facts.meets_criterion) notes.note_changes();
+  if (settings.changes_least()) notes.note_violations(count_violations(mesh, settings));
   if (facts.error_ratio) notes.note_errors(*facts.error_ratio, ending.returns_input);
   if (facts.gave_up) {
     notes.add(
@@ -233,9 +266,10 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
   notes.note_what_is_not_regular();
   notes.note_sizes();
   notes.note_energy();
-  notes.note_corners_that_stay(ending.bad);
-  notes.note_edges_that_must_be_split(ending.bad);
-  if (settings.guard != nullptr && ending.bad > 0 && !facts.meets_limits)
+  const std::size_t bad = settings.criterion == Criterion::well_centered ? ending.bad : 0;
+  notes.note_corners_that_stay(bad);
+  notes.note_edges_that_must_be_split(bad);
+  if (settings.guard != nullptr && bad > 0 && !facts.meets_limits)
     notes.add(
         "the guard may keep triangles from becoming well-centered: a larger `guard_areas` leaves more room, except for "
         "D-Flow FM, where `guard=none` does");
@@ -244,12 +278,13 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
         "the objective was accuracy, not the error of the solver: this run had no model of that error; builds with "
         "Eigen have one, temper::solvers() in C++");
   }
-  if (facts.lacks_programs && ending.bad > 0) {
+  if (facts.lacks_programs && bad > 0) {
     notes.add(
         "repairs had no solver of linear programs, which may find weights for triangles that are left; builds with Clp "
         "have one, temper::solvers() in C++");
   }
-  if (ending.for_accuracy) notes.note_accuracy(barrier ? ending.bad : count_bad(mesh, settings.executor()));
+  if (ending.for_accuracy && !settings.changes_least())
+    notes.note_accuracy(barrier ? ending.bad : count_bad(mesh, settings.executor()));
 }
 
 }  // namespace temper

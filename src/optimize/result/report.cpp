@@ -157,7 +157,9 @@ Rivals measure(InputMesh& input, WorkingCopy best, const RunEnd& end, std::optio
   // Flips that make the input regular have priority over all other criteria.
   const MeshScore& made = rivals.made.score;
   const bool may_be_better = before < made || made.bad > 0 || made.non_regular > 0;
-  if (!may_be_better || run.facts.meets_limits || !lacks_flips(of_input.counts, settings, run.facts)) return rivals;
+  if (!may_be_better || run.facts.meets_limits || run.facts.meets_criterion ||
+      !lacks_flips(of_input.counts, settings, run.facts))
+    return rivals;
   std::optional<AccuracySizes> again;
   if (settings.objective != Objective::energy) {
     const NearbyCopy near(input.whole(), settings.executor());
@@ -185,6 +187,27 @@ bool returns_input(const Rivals& rivals, const InputMesh& input, const Settings&
   return !coarser && !replaces(made, as_given, Requirement::not_worse);
 }
 
+/// Counts what differs from the input. `vertices`: number of each vertex in the input; empty if all are equal.
+ChangeCounts changes_from(const Mesh& input, const Mesh& mesh, const IdVector<VertexId, VertexId>& vertices) {
+  ChangeCounts counts;
+  const auto number = [&](VertexId v) { return vertices.empty() ? v : vertices[v]; };
+  const auto is_old = [&](VertexId v) { return v.index < input.n_vertices(); };
+  for (const VertexId v : mesh.vertices()) {
+    const VertexId was = number(v);
+    if (!is_old(was)) continue;
+    counts.vertices_moved += mesh.space().place(mesh.point(v)) == mesh.space().place(input.point(was)) ? 0 : 1;
+    counts.weights_changed += mesh.weight(v) == input.weight(was) ? 0 : 1;
+  }
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_edge_representative(h)) continue;
+    const VertexId a = number(mesh.origin(h)), b = number(mesh.target(h));
+    const bool was_there =
+        is_old(a) && is_old(b) && (input.find_halfedge(a, b).valid() || input.find_halfedge(b, a).valid());
+    counts.edges_changed += was_there ? 0 : 1;
+  }
+  return counts;
+}
+
 void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd& end, Run& run) {
   const Settings& settings = end.settings;
   OptimizeReport& report = run.report;
@@ -209,6 +232,13 @@ void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd
   report.size.after = is_new ? result.size : end.of_input.size;
   report.vertices = std::move(result.vertices);
   report.count_vertices(input.n_vertices(), report.vertices);
+  if (settings.changes_least()) {
+    report.changed = ChangeCounts();
+    if (is_new) {
+      const auto& order = result.work.order->vertices;
+      *report.changed = changes_from(input.whole(), result.work.mesh, input.is_scattered() ? order : report.vertices);
+    }
+  }
   if (is_new) {
     if (settings.hooks.viewer) settings.hooks.viewer(result.work.mesh);
     input.replace(std::move(result.work));

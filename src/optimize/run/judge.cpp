@@ -102,12 +102,14 @@ bool is_judged_by_errors(std::size_t n_vertices, const Space& space, const Setti
   const OptimizeOptions& o = settings.options;
   const bool is_free = !o.objective && settings.objective != Objective::energy && o.accuracy.sweeps > 0 &&
                        o.unknowns != Unknowns::positions && o.boundary != BoundaryVertices::split && !o.problem;
-  return is_free && o.scheme != Scheme::stars && settings.hooks.solvers.squared_errors &&
+  return is_free && o.change == Change::all && o.scheme != Scheme::stars && settings.hooks.solvers.squared_errors &&
          !settings.accuracy.keeps_lengths() && space.kind() == SpaceKind::plane &&
          n_vertices <= static_cast<std::size_t>(std::min(o.solver_error.most_vertices, kMostVertices));
 }
 
 bool is_sound(const Mesh& input, const MeshScore& counts, const Settings& settings) {
+  const Criterion criterion = criterion_of(settings.options.scheme);
+  if (criterion != Criterion::well_centered) return meets(input, criterion, settings.executor());
   const double margin = settings.options.accuracy.margin.value_or(scheme_weights(Scheme::vertex).margin);  // the least
   return counts == MeshScore{} && has_margins(input, margin, settings.executor());
 }
@@ -160,7 +162,13 @@ MeshScore count(const Mesh& mesh, const Settings& settings, const WorkingUnits& 
   return {count_beyond(mesh, units, settings.guard, settings.executor()) +
               count_worse(mesh, settings.worst_violation, settings.executor()),
           settings.policy.allows_inversion() ? count_inverted(mesh) : 0,
-          count_non_regular_edges(mesh, false, settings.executor()), count_bad(mesh, settings.executor())};
+          count_non_regular_edges(mesh, false, settings.executor()),
+          settings.changes_least() ? count_violations(mesh, settings) : 0, count_bad(mesh, settings.executor())};
+}
+
+std::size_t count_violations(const Mesh& mesh, const Settings& settings) {
+  if (settings.criterion == Criterion::well_centered) return count_bad(mesh, settings.executor());
+  return violated_edges(mesh, settings.criterion, settings.executor()).size();
 }
 
 MeshScore score(const Mesh& mesh, const Settings& settings, const EnergyModel& model, const VertexSizes* sizes,

@@ -32,10 +32,11 @@ namespace temper {
 
 /// A smaller score is better. What is worse than in the input comes first: measures of the guard (guard.hpp), and
 /// triangles that are farther from well-centered than any of the input. Then validity. Then regularity, unless the user
-/// keeps hidden vertices. Then, for a barrier, the number of triangles that are not well-centered. Then the margins of
-/// the accuracy objective, and missing lengths. Then the energy, or the error of the solver.
+/// keeps hidden vertices. Then, if the least may change, violations of the criterion. Then, for a barrier, the number
+/// of triangles that are not well-centered. Then the margins of the accuracy objective, and missing lengths. Then the
+/// energy, or the error of the solver.
 struct MeshScore {
-  std::size_t beyond_guard = 0, inverted = 0, non_regular = 0, bad = 0;
+  std::size_t beyond_guard = 0, inverted = 0, non_regular = 0, violations = 0, bad = 0;
   bool lacks_margins = false;
   double missing_lengths = 0;  ///< if the options require lengths
   double energy = 0;
@@ -60,6 +61,9 @@ enum class Requirement {
 [[nodiscard]] MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings,
                               const EnergyModel& model, const VertexSizes* sizes);
 
+/// Counts the violations of the criterion: triangles that are not well-centered, or duals of edges.
+[[nodiscard]] std::size_t count_violations(const Mesh& mesh, const Settings& settings);
+
 /// Says whether a mesh of the run replaces the best one, by the energy `model`.
 [[nodiscard]] bool replaces(const WorkingCopy& now, const WorkingCopy& best, Requirement required,
                             const Settings& settings, const EnergyModel& model);
@@ -68,7 +72,8 @@ enum class Requirement {
 /// must have a solver, the objective must be left to the run, and the build must be able to measure.
 [[nodiscard]] bool is_judged_by_errors(std::size_t n_vertices, const Space& space, const Settings& settings);
 
-/// Says whether the input needs no change: it is well-centered with margins.
+/// Says whether the input needs no change: it meets the criterion of its scheme. For stars, and for several schemes, it
+/// must also have margins.
 [[nodiscard]] bool is_sound(const Mesh& input, const MeshScore& counts, const Settings& settings);
 
 /// Says whether the input meets the limits of its client, so that the run returns it as it is:

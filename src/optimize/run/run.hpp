@@ -28,6 +28,9 @@ struct RunFacts {
   bool stays_unsplit = false;                  ///< the boundary, since cuts leave more triangles bad
   bool weights_shrunk = false;                 ///< all weights, since they left edges uncrossed
   bool meets_limits = false;                   ///< the input: those of its client, so it comes back
+  bool meets_criterion = false;                ///< the input: that of its target, so it comes back
+  bool many_are_bad = false;                   ///< so the whole mesh changes, not only their places
+  std::size_t places_left = 0;                 ///< triangles that rings left bad, so that the whole mesh changes
   bool gave_up = false;                        ///< in a metric, restarts left most triangles bad
   std::optional<double> error_ratio;           ///< above 1: of measured errors on the mesh of the run to the input's
   bool keeps_input = false;                    ///< for that reason

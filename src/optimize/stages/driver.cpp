@@ -9,6 +9,7 @@
 #include "mesh/bad_triangles.hpp"
 #include "optimize/coarsen/coarsening.hpp"
 #include "optimize/flips/grading.hpp"
+#include "optimize/repair/growing_search.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/repair_search.hpp"
 #include "optimize/repair/trial.hpp"
@@ -326,22 +327,41 @@ void Driver::end_sweep_of_its_own() {
   record(EnergyPhase(work_, settings_, state_, run_, kPolish).measure());
 }
 
+template <class Measure>
+void Driver::end_round(const Phase& phase, const Measure& measure) {
+  grow();
+  compact();
+  ++run_.report.sweeps;
+  record(measure());
+  show(Snapshot::Moment::after_sweep, phase);
+  run_.offer(work_, settings_, state_);
+  recorder_.begin_sweep(run_.report.sweeps + 1);
+}
+
 bool Driver::repair(std::uint64_t seed, bool asks_programs) {
   EnergyPhase phase(work_, settings_, state_, run_, kPolish);  // puts repairs into the history
   RepairSearch search(work_, run_, flipper_, seed, asks_programs);
   bool changed = false;
   RunningEnergyAndBad totals;
   while (run_.sweeps_left() && search.improve_one_place()) {
-    grow();
-    compact();
     changed = true;
-    ++run_.report.sweeps;
-    record(phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.executor())));
-    show(Snapshot::Moment::after_sweep, phase);
-    run_.offer(work_, settings_, state_);
-    recorder_.begin_sweep(run_.report.sweeps + 1);
+    end_round(phase, [&] {
+      return phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.executor()));
+    });
   }
   return changed;
+}
+
+int Driver::mend() {
+  EnergyPhase phase(work_, settings_, state_, run_, kPolish);
+  phase.begin();
+  if (run_.report.history.empty()) record(phase.measure());
+  run_.begin_sweeps();
+  GrowingSearch search(work_, run_, flipper_, settings_.policy.seed);
+  recorder_.begin_sweep(run_.report.sweeps + 1);
+  while (run_.sweeps_left() && search.improve()) end_round(phase, [&] { return phase.measure(); });
+  if (!run_.goes_on() && !run_.stopped_early()) run_.report.stopped = Stopped::max_sweeps;
+  return run_.report.sweeps;
 }
 
 void Driver::coarsen(int moves_of_cure) {
@@ -351,13 +371,7 @@ void Driver::coarsen(int moves_of_cure) {
   for (bool goes_on = true; goes_on;) {  // rounds of moves, which `max_sweeps` does not limit
     run_.n_vertices = mesh_.n_vertices();
     goes_on = search.improve();
-    grow();
-    compact();
-    ++run_.report.sweeps;
-    record(phase.measure());
-    show(Snapshot::Moment::after_sweep, phase);
-    run_.offer(work_, settings_, state_);
-    recorder_.begin_sweep(run_.report.sweeps + 1);
+    end_round(phase, [&] { return phase.measure(); });
   }
   run_.n_vertices.reset();
 }

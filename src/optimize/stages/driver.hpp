@@ -36,6 +36,8 @@ class Driver {
   /// Searches locally for repairs of triangles that all restarts left bad. Returns false if nothing changed.
   /// `asks_programs`: use linear programs for weights.
   bool repair(std::uint64_t seed, bool asks_programs = false);
+  /// Makes the places that violate the criterion good, with as few changes as possible. Returns as restart().
+  int mend();
   /// Cures bad triangles, then searches for a mesh with fewer vertices.
   void coarsen(int moves_of_cure);
   /// Sweeps at the sharpest γ, after repairs. If triangles turn bad again, the sweeps are undone. `sweep` as in run().
@@ -50,6 +52,9 @@ class Driver {
   void jitter(double amount);
   /// Counts and records the changes since the last sweep as one more sweep.
   void end_sweep_of_its_own();
+  /// The same for changes by a search.
+  template <class Measure>
+  void end_round(const Phase& phase, const Measure& measure);
   void begin(Phase& phase, int sweep);
   Verdict sweep(Phase& phase);
   Verdict flip_if_deferred(Phase& phase, Verdict of_sweeps);

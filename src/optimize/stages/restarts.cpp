@@ -141,6 +141,10 @@ bool may_gain(const Restart& restart, const Restart& before, std::size_t left, c
   return before.splitting != restart.splitting || left <= kFarMore * count_bad(best.work.mesh, settings.executor());
 }
 
+/// The part of the triangles at violations from which on the places that they need, of 13 triangles at least, are the
+/// whole mesh.
+constexpr double kManyPlaces = 1.0 / 13;
+
 }  // namespace
 
 bool has_gained(const Candidate& now, const Candidate& before, const Settings& settings, const EnergyModel& model) {
@@ -152,6 +156,7 @@ bool has_gained(const Candidate& now, const Candidate& before, const Settings& s
 Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
   std::optional<Candidate> best;
   std::vector<Restart> all(1);
+  const std::size_t flips_before = run.report.flips;
   std::size_t left = 0;  // bad triangles of the last restart that was not kept
   bool renewed = false;  // whether the best mesh is new since cuts at bad triangles failed
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -165,7 +170,7 @@ Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, Swe
     if (!best) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
       all = restarts_for(now.work.mesh, settings);
-      run.facts.input_flips = run.report.flips;
+      run.facts.input_flips = run.report.flips - flips_before;
     }
     const Restart& restart = all[i];
     now.sweep = driver.restart(restart, i + 1 < all.size() || repairs(settings));
@@ -185,6 +190,21 @@ Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, Swe
     if (!has_bad(*best, settings) || !run.goes_on() || (repairs(settings) && are_apart(*best, settings))) break;
   }
   return *std::move(best);
+}
+
+Expected<Mended> mended(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
+  Mended best{{input.copy()}};
+  WorkingCopy& work = best.candidate.work;
+  Driver driver(work, settings, state, run);
+  if (!driver.make_regular()) return hidden_vertices_error(input.whole(), settings.hooks.names);
+  run.facts.input_flips = run.report.flips;
+  const auto n_bad = [&] { return cells_at_violations(work.mesh, settings.criterion, settings.executor()).size(); };
+  best.left = n_bad();
+  best.many = static_cast<double>(best.left) > kManyPlaces * static_cast<double>(work.mesh.n_triangles());
+  if (best.many) return best;
+  best.candidate.sweep = driver.mend();
+  best.left = n_bad();
+  return best;
 }
 
 Candidate reweighted(Candidate best, InputMesh& input, const Settings& settings, SweepState state, Run& run) {

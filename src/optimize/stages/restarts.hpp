@@ -1,4 +1,4 @@
-// The attempts of a run, each from the same beginning, until no triangle is bad.
+// The attempts of a run, each from the same beginning, until no triangle is bad; and the run that changes the least.
 #pragma once
 
 #include "optimize/run/run.hpp"
@@ -8,6 +8,14 @@ namespace temper {
 
 /// Restarts from the input until no triangle is bad, and returns the best result.
 [[nodiscard]] Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, SweepState& state, Run& run);
+
+/// The input with as few changes as possible (repair/growing_search.hpp).
+struct Mended {
+  Candidate candidate;
+  std::size_t left = 0;  ///< triangles at violations of the criterion
+  bool many = false;     ///< so many that their places are the whole mesh: nothing was tried but flips
+};
+[[nodiscard]] Expected<Mended> mended(InputMesh& input, const Settings& settings, SweepState& state, Run& run);
 
 /// Restarts from the input with weights alone, and returns the result if fewer triangles are bad. In layers, triangles
 /// must be thin. If moves lower the energy elsewhere, no good weights may be left for them.

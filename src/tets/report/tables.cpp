@@ -97,6 +97,7 @@ const ReportTable& table_of(const OptimizeReport*) {
        {"bad_before", "Number of tetrahedra of the input that are not well-centered", "", bad_before, kLibraries},
        {"bad_after", "The same number of the result", "", bad_after, kLibraries},
        {"size", "None", "", [](const R&) { return std::optional<SizeChange>(); }, kLibraries},
+       {"changed", "None", "", [](const R&) { return std::optional<ChangeCounts>(); }, kLibraries},
        {"notes", "None", "", [](const R&) { return std::vector<std::string>(); }, kLibraries}});
   return table;
 }

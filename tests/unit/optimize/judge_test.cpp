@@ -11,10 +11,10 @@ namespace {
 /// All scores of two values in each place, the better ones first.
 std::vector<MeshScore> ascending_scores() {
   std::vector<MeshScore> scores;
-  for (std::size_t i = 0; i < 128; ++i) {
-    const auto bit = [i](int k) { return i >> (6 - k) & 1; };
-    scores.push_back({bit(0), bit(1), bit(2), bit(3), bit(4) != 0, 0.25 * static_cast<double>(bit(5)),
-                      1.5 - 1 / (1 + static_cast<double>(bit(6)))});
+  for (std::size_t i = 0; i < 256; ++i) {
+    const auto bit = [i](int k) { return i >> (7 - k) & 1; };
+    scores.push_back({bit(0), bit(1), bit(2), bit(3), bit(4), bit(5) != 0, 0.25 * static_cast<double>(bit(6)),
+                      1.5 - 1 / (1 + static_cast<double>(bit(7)))});
   }
   return scores;
 }

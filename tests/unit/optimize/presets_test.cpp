@@ -79,8 +79,8 @@ TEST(Presets, EffortsGrow) {
   }
 }
 
-TEST(Presets, NoEffortAddsSweepsToValidTrianglesAlone) {
-  for (const Preset& effort : efforts()) EXPECT_EQ(options_for("valid", effort.name)->accuracy.sweeps, 0);
+TEST(Presets, NoEffortChangesMoreThanValidTrianglesNeed) {
+  for (const Preset& effort : efforts()) EXPECT_EQ(options_for("valid", effort.name)->change, Change::least);
 }
 
 TEST(Presets, WhatLeavesNothingToChangeIsRefused) {

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "optimize/repair/trial.hpp"
+#include "support/lattice.hpp"
 #include "support/shapes.hpp"
+#include "temper/detail/criterion.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
@@ -60,6 +62,26 @@ TEST(RepairByProgram, OfAPlaceChangesWeightsNearItAndNoneOfTheRim) {
     }
   }
   EXPECT_GT(cured, 0u);
+}
+
+// With the least change, weights come before moves.
+TEST(RepairByProgram, ChangesWeightsBeforePositions) {
+  Mesh input = test::lattice({.n = 40, .jitter = 0, .weight = 0});
+  for (std::size_t i = 85; i < 1500; i += 97) {
+    const VertexId v(i);
+    if (!input.is_boundary(v)) input.set_position(v, input.position(v) + Vec2{0.3, 0.25});
+  }
+  for (const Scheme scheme : {Scheme::all, Scheme::vertex, Scheme::cell}) {
+    SCOPED_TRACE(static_cast<int>(scheme));
+    const OptimizeOptions options = {.scheme = scheme, .change = Change::least};
+    Mesh moved = input, weighed = input;
+    const auto without = optimize(moved, options), with = optimize(weighed, options, {.solvers = solvers()});
+    ASSERT_TRUE(without && with);
+    EXPECT_TRUE(meets(weighed, criterion_of(scheme)));
+    EXPECT_EQ(with->changed->vertices_moved, 0u);
+    const bool flips_are_enough = without->changed->vertices_moved == 0;
+    EXPECT_EQ(with->changed->weights_changed == 0, flips_are_enough);
+  }
 }
 
 }  // namespace

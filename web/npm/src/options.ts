@@ -3,7 +3,7 @@ import type { LengthParameterLike } from './types.ts';
 
 /** Use of the mesh.
  * - `any`: Any solver on a dual mesh: large margins, smaller errors.
- * - `valid`: Valid triangles alone: the fastest run.
+ * - `valid`: Valid triangles alone: as any, but only bad places change.
  * - `vertex`: Unknowns at vertices: MODFLOW, DEVSIM, exterior calculus.
  * - `cell`: Unknowns in triangles, two-point flux: PorePy, FiPy.
  * - `stars`: Diagonal Hodge stars of exterior calculus.
@@ -48,6 +48,8 @@ export interface OptimizeOptions {
   objective?: "energy" | "accuracy" | "solver_error" | null;
   /** Scheme of the solver. vertex: unknowns at vertices. cell: unknowns at orthocenters, two-point flux. stars: diagonal Hodge stars. all: each of these, with larger margins. Default: "all". */
   scheme?: "all" | "vertex" | "cell" | "stars";
+  /** Part of the mesh that may change. least: only the places that violate what scheme needs. All else stays, bit for bit, unless many places are bad, or stay bad. Default: "all". */
+  change?: "all" | "least";
   /** Least margin in every triangle: h/l, d/l and 1 - d/l stay above it; more than 0 and less than 0.25. null: 0.1, or 0.02 if scheme is one scheme. Default: null. */
   margin?: number | null;
   /** Least length of interior edges, as a multiple of the local size; at least 0 and at most 0.95. Default: 0. */

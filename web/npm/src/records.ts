@@ -157,6 +157,16 @@ export interface SizeChange {
   after: SizeReport;
 }
 
+/** What a run changed, by the numbers of the input. */
+export interface ChangeCounts {
+  /** Vertices of the input at another place. */
+  vertices_moved: number;
+  /** Vertices of the input with another weight. */
+  weights_changed: number;
+  /** Edges of the result that the input does not have. */
+  edges_changed: number;
+}
+
 /** One sweep over all vertices. */
 export interface SweepRecord {
   /** Number of the sweep; 0 is the input. */
@@ -205,6 +215,8 @@ export interface OptimizeReport {
   bad_after: number;
   /** Change of the sizes; absent for tetrahedra. */
   size: SizeChange;
+  /** What the run changed, with change = least. */
+  changed: ChangeCounts | null;
   /** Notes for the user, in sentences. */
   notes: string[];
   /** One record per sweep; history[0] is the input. Triangles are flipped to be regular before. */
