@@ -64,8 +64,8 @@ LogObjective log_objective(const std::vector<double>& errors, const std::vector<
   const auto n = static_cast<double>(errors.size());
   double sum = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) sum += errors[i] / start[i];
-  const double mean = errors.empty() ? 1 : sum / n;
-  LogObjective result = {portable_log(mean) + share * portable_log(total), mean, share / total, {}};
+  const double mean = sum / n;
+  LogObjective result = {portable_log(mean) + share * portable_log(total), share / total, {}};
   for (const double s : start) result.by_error.push_back(1 / (n * s * mean));
   return result;
 }

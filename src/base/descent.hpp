@@ -60,9 +60,9 @@ class Descent {
 [[nodiscard]] double dot(const std::vector<double>& a, const std::vector<double>& b);
 [[nodiscard]] double largest(const std::vector<double>& a);
 
-/// ln mean(errors over those at the start) + share ln(total), with its derivatives. Without errors the mean is 1.
+/// ln mean(errors over those at the start) + share ln(total), with its derivatives.
 struct LogObjective {
-  double value = 0, mean = 1, by_total = 0;
+  double value = 0, by_total = 0;
   std::vector<double> by_error;
 };
 [[nodiscard]] LogObjective log_objective(const std::vector<double>& errors, const std::vector<double>& start,

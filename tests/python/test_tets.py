@@ -274,7 +274,8 @@ def test_weights_are_found_or_a_certificate_proves_that_there_are_none(shaken):
     assert temper.check_certificate(shaken, none.certificate) == "proves"
     easy = temper.TetMesh(shaken.points * [1, 1, 3], shaken.tetrahedra)
     assert temper.check_certificate(easy, none.certificate) != "proves"
-    assert [row.name for row in temper.constraints_table(tetrahedra=True)] == ["well_centered", "completely_well_centered", "regular"]
+    assert [row.name for row in temper.constraints_table(tetrahedra=True)] == [
+        "well_centered", "completely_well_centered", "regular", "coefficients", "distances"]
     for wrong in ([1.0], np.full(shaken.n_vertices, np.nan)):
         with pytest.raises(temper.TemperError, match="weights: expected"):
             shaken.weights = wrong

@@ -26,7 +26,8 @@ def other_documents(temper, folder):
     return [
         best, ("best_weights", file("best.json")),
         ("mesh_report", file("mesh.json")), ("explain", said("explain", "shoe.vtu")), ("explain", said("explain", "square.vtu")),
-        ("explain_tetrahedra", said("explain", "tet.mesh")),
+        ("explain_tetrahedra", said("explain", "tet.mesh")), ("explain_duals", said("explain", "in.vtu", "--for", "vertex")),
+        ("explain_duals", said("explain", "tet.mesh", "--for", "cell")),
         proof, ("weights", said("weights", "in.vtu", "-o", "w.vtu", "--mode", "elastic", "--connectivity", "search", exit=None)),
         ("weights", said("weights", "shoe.vtu", "--mode", "margin", "--connectivity", "search", "--certificate", "all.json", exit=6)),
         ("connectivity_proof", file("all.json")),

@@ -86,7 +86,7 @@ void add_options(Command& command, CheckSettings& s) {
                     "  temper check in.vtu --json --worst 20\n"
                     "  temper check in.vtu --details --write report.html\n"
                     "  temper check in.vtu --require inverted=0,\"min_angle>=1\"\n"
-                    "  temper check in.vtu --for vertex --require bad=0\n"
+                    "  temper check in.vtu --for vertex\n"
                     "  temper check in.vtu in.vtu --require inverted=0\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
 }

@@ -78,7 +78,6 @@ void add_common(Command& command, OptimizeSettings& s) {
   command.option("--output").sentence = "File to write; its suffix selects the format. '-': standard output.";
   add_purpose(command, s);
   add_keep(command, s);
-  add_flag_of(command, "change", s.assignments).sentence = "Change all, or only places that lack what TARGET needs.";
   add_flag_of(command, "boundary", s.assignments).sentence =
       "The boundary stays bit for bit, or its vertices slide along straight lines and in planes, or its edges are "
       "split.";
@@ -98,6 +97,7 @@ void add_rare(Command& command, OptimizeSettings& s) {
   const std::size_t first = command.options().size();
   command.group("Further options");
   add_set(command, s.assignments);
+  add_flag_of(command, "change", s.assignments).sentence = "Change all, or only places that lack what TARGET needs.";
   add_flag_of(command, "coarsen", s.assignments).sentence =
       "Remove vertices, and keep all triangles well-centered. No removal makes a local size larger than this factor "
       "times the size field.";

@@ -7,6 +7,7 @@
 
 #include "base/cube_root.hpp"
 #include "base/loops.hpp"
+#include "base/portable_log.hpp"
 #include "tets/quality/duals.hpp"
 
 namespace temper::tets {
@@ -20,8 +21,8 @@ constexpr double kBarrier = 0.005;     // μ
 constexpr double kOffsetShare = 3;     // κ
 constexpr int kSmoothings = 10;
 // The phase ends if kStepsToGain steps lower the sum by less than kLeastDecrease.
-constexpr std::size_t kStepsToGain = 10;
-constexpr double kLeastDecrease = 5e-3;
+constexpr std::size_t kStepsToGain = 20;
+constexpr double kLeastDecrease = 2e-3;
 // Below, the margin is not certain in doubles.
 constexpr double kLeastMargin = 1e-9;
 // A cosine beyond the limit may grow by this, a fiftieth of a degree: with less its corners end the way of all.
@@ -50,6 +51,12 @@ double largest_dihedral_cosine(const TetMesh& mesh, Executor* executor) {
   IdVector<TetId, double> of(mesh.n_tetrahedra());
   for_each_index(of.size(), executor, [&](std::size_t t) { of[TetId(t)] = largest_dihedral_cosine(mesh, TetId(t)); });
   return *std::max_element(of.begin(), of.end());
+}
+
+double mean_ratio(const std::vector<double>& errors, const std::vector<double>& unit) {
+  double product = 1;
+  for (std::size_t i = 0; i < errors.size(); ++i) product *= errors[i] / unit[i];
+  return errors.size() == 2 ? std::sqrt(std::sqrt(product)) : std::sqrt(product);
 }
 
 AccuracyModel accuracy_model(Scheme scheme) {
@@ -142,13 +149,14 @@ Accuracy::Value Accuracy::value() const {
   Gradient slopes;
   const auto [offsets, barrier] = energy_.of(mesh_, &slopes, executor_);
   const double sum = offsets + barrier;
-  const LogObjective objective = log_objective(errors, errors_.unit, sum, kOffsetShare);
-  if (!(sum > 0 && std::isfinite(objective.value))) return result;
-  result.lowered = objective.value;
-  result.measure = errors_.model ? std::sqrt(objective.mean) : offsets;
+  const double mean = mean_ratio(errors, errors_.unit);
+  if (!(sum > 0 && mean > 0 && std::isfinite(sum) && std::isfinite(mean))) return result;
+  result.lowered = 2 * portable_log(mean) + kOffsetShare * portable_log(sum);
+  result.measure = errors_.model ? mean : offsets;
+  const auto n = static_cast<double>(errors.size());
   for (const VertexId v : mesh_.vertices()) {
-    slopes[v] = objective.by_total * slopes[v];
-    for (std::size_t i = 0; i < errors.size(); ++i) slopes[v] = slopes[v] + objective.by_error[i] * of_errors[i][v];
+    slopes[v] = kOffsetShare / sum * slopes[v];
+    for (std::size_t i = 0; i < errors.size(); ++i) slopes[v] = slopes[v] + 1 / (n * errors[i]) * of_errors[i][v];
   }
   result.gradient.resize(kUnknowns * mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) {

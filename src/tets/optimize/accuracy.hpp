@@ -3,10 +3,10 @@
 //
 //     ln J + κ ln(E + B),
 //
-// with the error J of a scheme, and the energy E and the barrier B of accuracy_energy.hpp, as in the plane
-// (optimize/solver_error). Without a model of J they lower the second term alone. Faces that keep the criterion go on
-// to keep it, by exact predicates. Around others all corners stay. No dihedral angle falls below a limit, or below the
-// least one that its tetrahedron has.
+// with the error J of a scheme, a geometric mean over kinds of fields, and the energy E and the barrier B of
+// accuracy_energy.hpp, as in the plane (optimize/solver_error). Without a model of J they lower the second term alone.
+// Faces that keep the criterion go on to keep it, by exact predicates. Around others all corners stay. No dihedral
+// angle falls below a limit, or below the least one that its tetrahedron has.
 #pragma once
 
 #include <vector>
@@ -39,6 +39,10 @@ struct AccuracyErrors {
   std::vector<double> unit;                    ///< Errors that count as 1, one for each error of the model
 };
 
+/// The root mean square errors over their units; of two kinds the geometric mean, so that each counts alike.
+/// Precondition: `errors` are squared, and at most two.
+[[nodiscard]] double mean_ratio(const std::vector<double>& errors, const std::vector<double>& unit);
+
 /// The cosine of the least dihedral angle of a tetrahedron or of a mesh.
 [[nodiscard]] double largest_dihedral_cosine(const TetMesh& mesh, TetId t);
 [[nodiscard]] double largest_dihedral_cosine(const TetMesh& mesh, Executor* executor);
@@ -50,7 +54,7 @@ class Accuracy {
 
   /// Takes one step. Returns false if there is none, or if it must stop.
   bool descend(const MustStop& must_stop);
-  /// The root mean square of the errors J after the last step, or without a model E.
+  /// mean_ratio() after the last step, or without a model E.
   [[nodiscard]] double measure() const { return now_.measure; }
 
  private:

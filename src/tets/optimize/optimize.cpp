@@ -213,7 +213,7 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
     const auto error_of = [this](const TetMesh& mesh) {
       if (unit_.empty()) return 0.0;
       const std::vector<double> errors = error_->errors(mesh);
-      return errors.empty() ? HUGE_VAL : std::sqrt(log_objective(errors, unit_, 1, 0).mean);
+      return errors.empty() ? HUGE_VAL : mean_ratio(errors, unit_);
     };
     begin_phase(error_of);
     const bool has_gradient = !unit_.empty() && error_->has_gradient();

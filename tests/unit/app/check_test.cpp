@@ -332,7 +332,8 @@ TEST_F(Check, RequirementsOnTetrahedraHaveTheirOwnKeys) {
   EXPECT_EQ(tetrahedra.exit, 2);
   EXPECT_TRUE(contains(tetrahedra.err, "unknown key 'energy.BP.1' for tetrahedra. Next: temper check --help lists"));
   EXPECT_TRUE(contains(temper({"check", "two.mesh", "--require", "min_angle=1"}).err,
-                       "unknown key 'min_angle' for tetrahedra; there are min_h, min_face_h, min_d, min_dihedral, "
+                       "unknown key 'min_angle' for tetrahedra; there are min_coefficient, min_distance, min_h, "
+                       "min_face_h, min_d, min_dihedral, "
                        "min_volume. Next: "));
   EXPECT_TRUE(contains(temper({"check", "in.vtu", "--require", "energy.B.1=0"}).err, "there are energy.NAME.STAR"));
   EXPECT_TRUE(contains(temper({"check", "two.mesh", "--require", "outside=0,min_angle"}).err,

@@ -72,7 +72,7 @@ TEST_F(Explain, ForATargetItExplainsDualsOfTetrahedra) {
   EXPECT_TRUE(contains(faces, "Face ")) << faces;
   EXPECT_TRUE(contains(faces, "distance") && contains(faces, "dihedral")) << faces;
   const std::string edges = temper_ok({"explain", "two.mesh", "--for", "vertex", "--limit", "1"}).out;
-  EXPECT_TRUE(contains(edges, "  1. Edge ")) << edges;
+  EXPECT_TRUE(contains(edges, "\n 1. Edge ")) << edges;
   EXPECT_TRUE(contains(edges, "over length -")) << edges;
 }
 

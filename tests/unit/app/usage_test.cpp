@@ -395,7 +395,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"RequireUnknownKey", {"check", "a.vtu", "--require", "outsid=0"}, "did you mean 'outside'?"},
         Wrong{"RequireListsKeysAlike",
               {"check", "a.vtu", "--require", "min_nothing=0"},
-              "; there are min_h, min_d, min_angle"},
+              "; there are min_coefficient, min_h, min_d, min_angle"},
         Wrong{"RequireNoValue", {"check", "a.vtu", "--require", "nowhere"}, "unknown key 'nowhere'. Next: "},
         Wrong{"RequireNoUsualValue",
               {"check", "a.vtu", "--require", "smoothness"},

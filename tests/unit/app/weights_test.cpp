@@ -301,7 +301,7 @@ TEST_F(Weights, BadUsageIsRefused) {
       {"in.vtu"},
       {"in.vtu", "-o", "out.vtu", "--margin", "0.5"},
       {"in.vtu", "-o", "out.vtu", "--margin", "0"},
-      {"in.vtu", "-o", "out.vtu", "--for", "cell"},
+      {"in.vtu", "-o", "out.vtu", "--mode", "center", "--for", "cell"},
       {"in.vtu", "-o", "out.vtu", "--mode", "center", "--margin", "0.02"},
       {"in.vtu", "-o", "out.vtu", "--mode", "best"},
       {"in.vtu", "-o", "out.vtu", "--check-certificate", "why.json"},
