@@ -202,7 +202,7 @@ bool Accuracy::descend(const MustStop& must_stop) {
       lowered_.end()[-1 - std::ptrdiff_t(kStepsToGain)] - now_.lowered < kLeastDecrease)
     return false;
   for (const VertexId v : mesh_.vertices()) before_[v] = mesh_.point(v);
-  Descent::Outcome outcome;
+  Descent::Outcome outcome = Descent::Outcome::none;
   do {
     outcome = descent_.take_step(*this, now_, executor_, [&must_stop] { return must_stop(0); });
   } while (outcome == Descent::Outcome::none);
