@@ -68,7 +68,7 @@ std::vector<VertexId> far_from_violations(const Mesh& mesh, Criterion criterion,
 std::set<std::array<std::uint32_t, 2>> edges_of(const Mesh& mesh) {
   std::set<std::array<std::uint32_t, 2>> edges;
   for (const HalfedgeId h : mesh.halfedges()) {
-    const auto [a, b] = std::minmax(mesh.origin(h).index, mesh.target(h).index);
+    const auto [a, b] = std::minmax({mesh.origin(h).index, mesh.target(h).index});  // by value
     edges.insert({a, b});
   }
   return edges;
