@@ -109,7 +109,7 @@ class Checker:
         return both > 0 and both * both >= FLAT * dot(up, up) * dot(down, down)
 
     def corners_of(self, term):
-        """The vertices that the formula of a term takes. The order of cells is that of positive area or volume."""
+        """The vertices that the formula of a term takes. The order of their corners makes areas and volumes positive."""
         kind = term["kind"]
         if kind == "crossing":
             return tuple(term["edge"])

@@ -472,7 +472,7 @@ struct SizeChange {
 };
 [[nodiscard]] const ReportTable& table_of(const SizeChange*);
 
-/// What a run changed, by the numbers of the input.
+/// Counts of the changes of a run, by the numbers of the input.
 struct ChangeCounts {
   std::size_t vertices_moved = 0;   ///< Vertices of the input at another place
   std::size_t weights_changed = 0;  ///< Vertices of the input with another weight

@@ -321,7 +321,7 @@ class SizeChange(Record):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ChangeCounts(Record):
-    """What a run changed, by the numbers of the input."""
+    """Counts of the changes of a run, by the numbers of the input."""
 
     vertices_moved: int
     """Vertices of the input at another place."""

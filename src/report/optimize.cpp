@@ -51,7 +51,7 @@ const ReportTable& table_of(const SizeChange*) {
 const ReportTable& table_of(const ChangeCounts*) {
   using C = ChangeCounts;
   static const ReportTable table =
-      report_table<C>("ChangeCounts", "What a run changed, by the numbers of the input.",
+      report_table<C>("ChangeCounts", "Counts of the changes of a run, by the numbers of the input.",
                       {{"vertices_moved", "Vertices of the input at another place", "", &C::vertices_moved},
                        {"weights_changed", "Vertices of the input with another weight", "", &C::weights_changed},
                        {"edges_changed", "Edges of the result that the input does not have", "", &C::edges_changed}});

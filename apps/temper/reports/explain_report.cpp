@@ -40,7 +40,7 @@ std::string wrapped(const std::string& text, std::size_t indent, const TextStyle
   return result;
 }
 
-/// What weights can do if nothing else changes.
+/// The verdict on weights alone, if nothing else changes.
 template <class Subject>
 std::string on_weights(Feasibility verdict, std::size_t changed, std::size_t vertices, double margin) {
   if (verdict == Feasibility::undecided)

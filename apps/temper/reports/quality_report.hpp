@@ -69,7 +69,7 @@ template <class Subject>
 template <class Subject>
 [[nodiscard]] std::string well_centered(std::size_t bad, std::size_t elements);
 
-/// Of a mesh or of its quality: "5 vertices, 2 triangles". It may say how many vertices are inside.
+/// The size of a mesh: "5 vertices, 2 triangles". It may say how many vertices are inside.
 template <class MeshOrQuality>
 [[nodiscard]] std::string mesh_size(const MeshOrQuality& of);
 

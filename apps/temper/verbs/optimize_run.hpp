@@ -17,7 +17,8 @@ template <class Subject>
 struct RunResults {
   typename Subject::Quality before, after;
   typename Subject::Mesh second;  ///< the input if it is improved in place and something shows it; else the result
-  const typename Subject::Mesh *original = nullptr, *improved = nullptr;  ///< each is this one or that of the input
+  const typename Subject::Mesh *original = nullptr,
+                               *improved = nullptr;  ///< each is `second`, or the mesh of the input
   typename Subject::OptimizeReport report;
   std::vector<Outcome> outcomes;  ///< of --require
   bool lacks_flips = false;       ///< edges are not regular that should be

@@ -35,7 +35,7 @@ enum class Criterion : std::uint8_t {
 struct CriterionInfo {
   Criterion criterion;
   std::string_view name;       ///< "coefficients": stable across versions
-  std::string_view sentence;   ///< What holds in a good mesh
+  std::string_view sentence;   ///< Sentence that is true of a good mesh
   std::string_view needed_by;  ///< Solvers that need it
 };
 /// One row for each Criterion, in the same order.

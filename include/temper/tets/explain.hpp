@@ -76,8 +76,8 @@ struct ExplanationReport {
 /// check_certificate(). It fails as find_weights() does. O(n), and a linear program of the whole mesh.
 [[nodiscard]] Expected<Explanation> explain(const TetMesh& mesh, LpSolver& solver, const ExplainOptions& options = {});
 
-/// Explains the worst violations of a criterion of duals, at most `most`. Of a negative coefficient it names the face
-/// with the largest part. Precondition: the criterion is not well_centered. O(n).
+/// Explains the worst violations of a criterion of duals, at most `most`. For a negative coefficient it names the
+/// face with the largest part. Precondition: the criterion is not well_centered. O(n).
 [[nodiscard]] DualExplanation explain_duals(const TetMesh& mesh, Criterion criterion, std::size_t most,
                                             Executor* executor = nullptr);
 

@@ -13,7 +13,7 @@ namespace temper {
 struct Mended {
   Candidate candidate;
   std::size_t left = 0;  ///< triangles at violations of the criterion
-  bool many = false;     ///< so many that their places are the whole mesh: nothing was tried but flips
+  bool many = false;     ///< their places fill the whole mesh, so only flips were tried
 };
 [[nodiscard]] Expected<Mended> mended(InputMesh& input, const Settings& settings, SweepState& state, Run& run);
 

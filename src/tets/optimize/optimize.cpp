@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "base/sine_cosine.hpp"
 #include "optimize/options/settings.hpp"
 #include "optimize/run/run_of.hpp"
 #include "temper/detail/convex.hpp"
@@ -61,7 +59,7 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
     if (error_ != nullptr) unit_ = error_->errors(draft_.mesh);
     most_cosine_ = limit_of_angles(draft_.mesh);
     record();
-    if (best_bad_ == 0) input_ = draft_;
+    if ((error_ != nullptr || lowers_hot(options_)) && best_bad_ == 0) input_ = draft_;
     if (criterion_ == Criterion::well_centered || best_bad_ > 0) make_good();
     if (!stopped_early() && lowers_errors()) lower_errors();
     if (!stopped_early() && lowers_hot(options_)) lower_hot();
@@ -251,9 +249,7 @@ class Run : RunOf<OptimizeHooks, OptimizeReport> {
 
   /// The largest cosine that dihedral angles may get.
   [[nodiscard]] double limit_of_angles(const TetMesh& mesh) const {
-    const double of_input = largest_dihedral_cosine(mesh, hooks_.executor);
-    if (options_.guard.angle == 0) return 1 - kAngleKept * (1 - of_input);
-    return std::max(of_input, sine_cosine(std::numbers::pi / 180 * options_.guard.angle).cosine);
+    return 1 - kAngleKept * (1 - largest_dihedral_cosine(mesh, hooks_.executor));
   }
   /// A run without a scheme lowers errors if there is a model of them: offsets alone cost as much as all sweeps.
   [[nodiscard]] bool lowers_errors() const {

@@ -10,7 +10,7 @@
 #include "base/instruction_set_choice.hpp"
 #include "base/sum.hpp"
 #include "tets/mesh/box.hpp"
-#include "tets/quality/measure.hpp"
+#include "tets/quality/duals.hpp"
 
 namespace temper::tets {
 namespace {
@@ -153,18 +153,10 @@ bool is_exact(const WeightedPoint& p) {
   return is_exact_coordinate(p.x) && is_exact_coordinate(p.y) && is_exact_coordinate(p.z) && is_exact_weight(p.w);
 }
 
-bool is_bad(const TetMesh& mesh, TetId t) {
-  for (int f = 0; f < 4; ++f) {
-    const HalffaceId h = TetMesh::halfface(t, f);
-    const auto [a, b, c] = points_of(mesh, h);
-    if (signed_height_sign(a, b, c, mesh.point(mesh.opposite(h))) != Sign::positive) return true;
-  }
-  return false;
-}
-
 bool is_good(const TetMesh& mesh, TetId t) {
   const auto [a, b, c, d] = mesh.points(t);
-  return orientation(a.position(), b.position(), c.position(), d.position()) == Sign::positive && !is_bad(mesh, t);
+  return orientation(a.position(), b.position(), c.position(), d.position()) == Sign::positive &&
+         is_well_centered(mesh, t);
 }
 
 namespace {
@@ -182,7 +174,7 @@ void judge(const TetMesh& mesh, double gamma, std::size_t first, std::size_t las
     const auto [inside, outside] = kernels().tetrahedra(lanes, gamma, energies);
     for (std::size_t i = 0; i < std::min(kLanes, last - first); ++i) {
       const TetId t(first + i);
-      use(t, energies[i], (outside >> i & 1) != 0 || ((inside >> i & 1) == 0 && is_bad(mesh, t)));
+      use(t, energies[i], (outside >> i & 1) != 0 || ((inside >> i & 1) == 0 && !is_well_centered(mesh, t)));
     }
   }
 }

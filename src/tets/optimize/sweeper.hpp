@@ -59,8 +59,6 @@ class Sweeper {
   VertexStars stars_;               // by the number in the sequence, so that memory is read from front to back
 };
 
-/// Says exactly whether the orthocenter of a tetrahedron, in either orientation, is not inside.
-[[nodiscard]] bool is_bad(const TetMesh& mesh, TetId t);
 /// Says exactly whether t is positive, with its orthocenter inside.
 [[nodiscard]] bool is_good(const TetMesh& mesh, TetId t);
 /// Says whether the predicates are exact for p.

@@ -12,13 +12,6 @@
 namespace temper::tets {
 namespace {
 
-bool is_well_centered(const TetMesh& mesh, TetId t) {
-  for (int f = 0; f < 4; ++f) {
-    if (height_sign(mesh, TetMesh::halfface(t, f)) != Sign::positive) return false;
-  }
-  return true;
-}
-
 template <class Violated>
 std::vector<Violated> joined(const std::vector<std::vector<Violated>>& blocks) {
   std::vector<Violated> all;

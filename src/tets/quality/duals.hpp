@@ -13,6 +13,14 @@ namespace temper::tets {
   return signed_height_sign(a, b, c, mesh.point(mesh.opposite(h)));
 }
 
+/// Says whether the orthocenter of a tetrahedron, in either orientation, is inside. Exact.
+[[nodiscard]] inline bool is_well_centered(const TetMesh& mesh, TetId t) {
+  for (int f = 0; f < 4; ++f) {
+    if (height_sign(mesh, TetMesh::halfface(t, f)) != Sign::positive) return false;
+  }
+  return true;
+}
+
 /// Sign of the length of the dual of an inner face. Exact.
 [[nodiscard]] inline Sign dual_sign(const TetMesh& mesh, HalffaceId h) {
   const auto [a, b, c] = points_of(mesh, h);

@@ -50,7 +50,7 @@ Mesh disturbed(int n, double amount, int every, std::uint64_t seed = 1) {
   return mesh;
 }
 
-/// Vertices that are farther than so many rings from all violations of the mesh.
+/// Vertices that have more than `rings` rings between them and any violation.
 std::vector<VertexId> far_from_violations(const Mesh& mesh, Criterion criterion, int rings) {
   std::vector<TriangleId> near = cells_at_violations(mesh, criterion);
   for (int i = 0; i < rings; ++i) near = triangles_around(mesh, near);

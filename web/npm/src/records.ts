@@ -157,7 +157,7 @@ export interface SizeChange {
   after: SizeReport;
 }
 
-/** What a run changed, by the numbers of the input. */
+/** Counts of the changes of a run, by the numbers of the input. */
 export interface ChangeCounts {
   /** Vertices of the input at another place. */
   vertices_moved: number;
