@@ -47,14 +47,14 @@ std::string why(const TetMesh& mesh, const ViolatedFace& violated) {
 }
 
 /// A face around an edge, and its part of the coefficient.
-struct Part {
+struct EdgeFace {
   HalffaceId face;
   VertexId apex;  ///< third vertex of the face
   double k_over_l = 0, over_l2 = 0;
 };
 
-Part part_of(const TetMesh& mesh, HalffaceId h, const std::array<VertexId, 2>& edge, bool both) {
-  Part part = {h, {}};
+EdgeFace part_of(const TetMesh& mesh, HalffaceId h, const std::array<VertexId, 2>& edge, bool both) {
+  EdgeFace part = {h, {}};
   for (const VertexId v : mesh.vertices(h)) {
     if (v != edge[0] && v != edge[1]) part.apex = v;
   }
@@ -69,7 +69,7 @@ Part part_of(const TetMesh& mesh, HalffaceId h, const std::array<VertexId, 2>& e
 }
 
 std::string why(const TetMesh& mesh, const VertexStars& stars, const ViolatedEdge& violated) {
-  Part worst;
+  EdgeFace worst;
   for (const HalffaceId across : stars.link(violated.vertices[0])) {
     const TetId t = TetMesh::tetrahedron(across);
     if (violated.kind == DualKind::region && mesh.region(t) != violated.region) continue;
@@ -78,7 +78,7 @@ std::string why(const TetMesh& mesh, const VertexStars& stars, const ViolatedEdg
       const auto vertices = mesh.vertices(h);
       if (h == across || std::ranges::find(vertices, violated.vertices[1]) == vertices.end()) continue;
       const bool both = violated.kind != DualKind::region || !mesh.bounds_region(h);
-      const Part part = part_of(mesh, h, violated.vertices, both);
+      const EdgeFace part = part_of(mesh, h, violated.vertices, both);
       if (!worst.face.valid() || part.over_l2 < worst.over_l2) worst = part;
     }
   }
