@@ -345,7 +345,10 @@ py::object explain_tetrahedra(const PyTetMesh& self, std::size_t whole) {
 /// Null of a target whose criterion is well_centered.
 template <class AnyMesh>
 py::object explain_duals_of(const AnyMesh& mesh, const std::string& target, std::size_t most) {
-  const Criterion criterion = criterion_of_target(or_raise(target_named(target)));
+  const std::string_view named = or_raise(target_named(target));
+  constexpr bool is_tets = std::is_same_v<AnyMesh, tets::TetMesh>;
+  or_raise(check_cells({}, {named}, is_tets ? CellKinds::tetrahedra : CellKinds::triangles));
+  const Criterion criterion = criterion_of_target(named);
   if (criterion == Criterion::well_centered) return py::none();
   return report_to_python(aside([&] { return explain_duals(mesh, criterion, most); }));
 }

@@ -490,7 +490,9 @@ struct RunReport {
   std::size_t flips = 0;        ///< Changes of connectivity without a new or removed vertex
   std::size_t vertices_removed = 0;
   std::size_t vertices_inserted = 0;
-  std::vector<SweepRecord> history;  ///< History of the sweeps; history[0] is the input
+  std::vector<SweepRecord> history;          ///< History of the sweeps; history[0] is the input
+  std::optional<ChangeCounts> changed = {};  ///< With Change::least
+  std::vector<std::string> notes;            ///< Notes for the user, in sentences
 
   /// Counts removed and inserted vertices. `vertices`: number of each vertex in the input, as in the report.
   void count_vertices(std::size_t n_input_vertices, const IdVector<VertexId, VertexId>& vertices);
@@ -509,8 +511,6 @@ struct OptimizeReport : RunReport {
   std::size_t bad_before = 0;                 ///< Triangles of the input that are not well-centered, before any flip
   std::size_t bad_after = 0;                  ///< Triangles of the result that are not well-centered
   SizeChange size;
-  std::optional<ChangeCounts> changed = {};  ///< With Change::least
-  std::vector<std::string> notes;            ///< Notes for the user, in sentences
 };
 [[nodiscard]] const ReportTable& table_of(const OptimizeReport*);
 

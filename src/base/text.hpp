@@ -23,6 +23,11 @@ inline std::string rounded(double value, int digits = 4) {
   return {buffer, result.ptr};
 }
 
+/// "1 vertex" or "3 vertices"
+inline std::string count_of(std::size_t n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
 /// "3 points"
 inline std::string quantity(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what; }
 

@@ -1,6 +1,7 @@
 // The weights of one region with the least change, or the least violation, for a margin.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "feasibility/demand.hpp"
@@ -22,6 +23,7 @@ struct RegionProblem {
   const VertexWeights& start;  ///< the weights before the change; the weights of the rim stay
   double margin = 0;
   double floor = -kUnbounded;  ///< elastic weights have at least this margin, whatever they violate
+  std::function<bool()> must_stop = {};
 
   /// What one constraint must keep for a margin. If zero is allowed, a constraint inside may stay as small as it was.
   [[nodiscard]] double margin_of(const WeightConstraint& constraint, double asked) const;

@@ -50,7 +50,7 @@ class WeightFinder {
     if (!is_least() && refuted_by_a_ring(asked)) return report(asked);
     for (int round = 0; round < kHalvings && asked > kNoMargin; ++round) {
       regions_.attempt(asked, asked);
-      if (regions_.failures() == 0) break;
+      if (regions_.failures() == 0 || regions_.must_stop()) break;
       note_bound(asked);
       if (is_least() && bound_->best.margin <= kNoMargin) break;
       asked = std::min(bound_->best.margin / 2, is_least() ? asked / kLessMargin : kUnbounded);

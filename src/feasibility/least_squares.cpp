@@ -28,6 +28,7 @@ class LeastSquares {
       : p_(problem), demand_(problem.demand), region_(region), edges_(demand_.edges_of(region.cells)) {
     units_ = weight_units(region.free, edges_);
     program_.n_columns = region.free.size() - first_column();
+    program_.must_stop = problem.must_stop;
     for (const WeightEdge& edge : edges_) add_square(edge);
     program_.square_constants.assign(program_.squares.size(), 0);
     for (const WeightConstraint& c : demand_.constraints_of(region.cells, true)) add_row(c);

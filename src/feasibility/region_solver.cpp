@@ -69,7 +69,9 @@ Bound RegionSolver::bound_without(const Region& region, const RegionChange& chan
 
 /// Nothing: the region must grow.
 std::optional<RegionResult> RegionSolver::solve(Region& region, double asked, double floor) {
+  if (must_stop()) return RegionResult{std::move(region), std::nullopt, {}};
   RegionChange change = change_of(region, asked);
+  if (must_stop()) return RegionResult{std::move(region), std::nullopt, {}};
   if (change.status != LpStatus::optimal && floor < asked)
     change = least_violation(problem(asked, floor), region, solver_);
   if (change.status == LpStatus::optimal) return RegionResult{std::move(region), std::move(change), {}};

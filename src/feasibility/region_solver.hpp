@@ -39,6 +39,7 @@ class RegionSolver {
   [[nodiscard]] std::vector<RegionResult>& results() { return results_; }
   [[nodiscard]] const std::vector<RegionResult>& results() const { return results_; }
 
+  [[nodiscard]] bool must_stop() const { return options_.must_stop && options_.must_stop(); }
   /// The number of regions without weights.
   [[nodiscard]] std::size_t failures() const {
     return static_cast<std::size_t>(
@@ -46,7 +47,7 @@ class RegionSolver {
   }
   [[nodiscard]] Bound bound_of(std::span<const CellId> cells) const { return bound_margin(demand_, cells, solver_); }
   [[nodiscard]] RegionProblem problem(double asked, double floor = -kUnbounded) const {
-    return {demand_, start_, asked, floor};
+    return {demand_, start_, asked, floor, options_.must_stop};
   }
   /// A best margin that rules out all weights. Dual lengths are all zero for w = |x|², so their best margin is never
   /// below zero, unless heights count, too.

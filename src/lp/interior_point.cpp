@@ -178,6 +178,7 @@ class InteriorPoint {
     double least_slope = HUGE_VAL;
     int short_steps = 0, polishing = 0;
     for (; result.iterations < kMostIterations && short_steps < kMostShortSteps; ++result.iterations) {
+      if (p_.must_stop && p_.must_stop()) return {};
       measure();
       if (has_gap()) {
         const double slope = slope_.cwiseAbs().cwiseQuotient(scale_.cwiseMax(kTiny)).maxCoeff();

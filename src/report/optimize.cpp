@@ -69,13 +69,7 @@ const ReportTable& table_of(const OptimizeReport*) {
        {"bad_before", "Number of triangles or tetrahedra of the input that are not well-centered, before any flip", "",
         &R::bad_before, ShownIn::libraries},
        {"bad_after", "The same number of the result", "", &R::bad_after, ShownIn::libraries},
-       {"size", "Change of the sizes; absent for tetrahedra", "", &R::size},
-       {"changed", "What the run changed, with change = least", "", &R::changed, ShownIn::if_any},
-       {"notes", "Notes for the user, in sentences", "", [](const R& r) {
-          std::vector<TextWithOptions> notes;
-          for (const std::string& note : r.notes) notes.push_back({note});
-          return notes;
-        }}});
+       {"size", "Change of the sizes; absent for tetrahedra", "", &R::size}});
   return table;
 }
 

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <initializer_list>
+#include <iterator>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "temper/detail/report.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
 
-/// `objective`, `hidden_vertices`: rows in between. `more`: rows before the history.
+/// `objective`, `hidden_vertices`: rows in between. `more`: rows before the changes.
 template <class R>
 [[nodiscard]] ReportTable run_table(std::string_view name, const Field<R>& objective, const Field<R>& hidden_vertices,
                                     std::initializer_list<Field<R>> more) {
@@ -30,10 +33,17 @@ template <class R>
        {"vertices_inserted", "Number of new vertices", "", &R::vertices_inserted},
        {"flips", "Number of changes of connectivity without a new or removed vertex", "", &R::flips}});
   table.rows.insert(table.rows.end(), more.begin(), more.end());
-  table.rows.push_back(Field<R>("history",
-                                "One record per sweep; history[0] is the input. Triangles are flipped to be regular "
-                                "before",
-                                "", &R::history, ShownIn::by_key));
+  const Field<R> last[] = {
+      {"changed", "What the run changed, with change = least", "", &R::changed, ShownIn::if_any},
+      {"notes", "Notes for the user, in sentences", "",
+       [](const R& r) {
+         std::vector<TextWithOptions> notes;
+         for (const std::string& note : r.notes) notes.push_back({note});
+         return notes;
+       }},
+      {"history", "One record per sweep; history[0] is the input. Triangles are flipped to be regular before", "",
+       &R::history, ShownIn::by_key}};
+  table.rows.insert(table.rows.end(), std::begin(last), std::end(last));
   return table;
 }
 

@@ -136,6 +136,7 @@ class Checks {
  private:
   template <class Subject>
   void check(InputOf<Subject>& input) {
+    expect_target_for("check", input.path, s_.target, Subject::cells);
     const std::vector<Requirement>& requirements = requirements_.of(Subject::cells);
     print_warnings(input.warnings());
     typename Subject::Quality measured = measure(input);

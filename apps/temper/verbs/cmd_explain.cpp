@@ -141,7 +141,8 @@ Exit run_explain(const Arguments& arguments) {
 
   const AnyInput any = read_any(command, s.input, {s.projection, {}, nullptr, s.heights});
   std::visit(
-      [&](const auto& input) {
+      [&]<class Subject>(const InputOf<Subject>& input) {
+        expect_target_for("explain", input.path, s.target, Subject::cells);
         print_warnings(input.warnings());
         print_explanation(s, input);
       },

@@ -71,7 +71,7 @@ std::string details_text(const OptimizeSettings& s, const RunResults<Subject>& r
     text += "\n" + data;
   text += fmt::format("objective {}: {:.6g} before, {:.6g} after\n", name(last_objective(report)),
                       report.objective_before, report.objective_after);
-  for (const std::string& note : notes_of(report)) text += "note: " + note + "\n";
+  for (const std::string& note : report.notes) text += "note: " + note + "\n";
   return text + "\n";
 }
 
@@ -84,7 +84,7 @@ void print_result(const OptimizeSettings& s, const RunResults<Subject>& results,
   std::string end = ending(report.stopped) + work_done(report);
   if (last_objective(report) == Objective::solver_error && std::isfinite(report.objective_before))
     end += fmt::format("; solver error {:.3g} times the input's", report.objective_after / report.objective_before);
-  if (const std::size_t notes = notes_of(report).size(); !s.details && notes > 0)
+  if (const std::size_t notes = report.notes.size(); !s.details && notes > 0)
     end += fmt::format("; --details has {}", plural(notes, "note", "notes"));
   const Criterion criterion = criterion_of_target(s.target);
   const std::size_t bad = violations(results.after, criterion);

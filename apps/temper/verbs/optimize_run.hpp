@@ -68,11 +68,9 @@ inline void release_mesh(TetInput& input, RunResults<Tetrahedra>& results) {
 [[nodiscard]] inline const auto& parts_of(const tets::OptimizeReport& report) { return report.origins; }
 [[nodiscard]] inline const auto& parts_of(const tets::BestSoFar& best) { return best.origins; }
 
-/// The objective that the run lowered at last, and its notes.
+/// The objective that the run lowered at last.
 [[nodiscard]] inline Objective last_objective(const OptimizeReport& report) { return report.objective; }
 [[nodiscard]] inline Objective last_objective(const tets::OptimizeReport& /*report*/) { return Objective::energy; }
-[[nodiscard]] inline std::span<const std::string> notes_of(const OptimizeReport& report) { return report.notes; }
-[[nodiscard]] inline std::span<const std::string> notes_of(const tets::OptimizeReport& /*report*/) { return {}; }
 
 /// The measures of the mesh that --details adds.
 [[nodiscard]] std::string measures_text(const OptimizeSettings& settings, const RunResults<Triangles>& results);

@@ -164,6 +164,12 @@ void expect_one_value(const Assignments& assignments) {
   }
 }
 
+/// Refuses names that are not for these cells.
+void refuse_others(const std::string& verb, const std::string& input, const Expected<void>& right, CellKinds cells) {
+  if (!right)
+    refuse_usage(verb, fmt::format("{} has {}, and {}", input, name(cells), spell_options(right.error().message)));
+}
+
 }  // namespace
 
 Option& add_target(Command& command, std::string& target, bool research) {
@@ -256,9 +262,11 @@ void expect_for(const Command& command, const OptimizeSettings& s, CellKinds cel
   const std::vector<std::string_view> keep(s.keep.begin(), s.keep.end());
   std::vector<std::string_view> rows;
   for (const Assignment& a : s.assignments) rows.push_back(a.row->name);
-  if (const auto right = check_cells(s.options, {s.target, keep, rows}, cells); !right)
-    refuse_usage("optimize",
-                 fmt::format("{} has {}, and {}", s.input, name(cells), spell_options(right.error().message)));
+  refuse_others("optimize", s.input, check_cells(s.options, {s.target, keep, rows}, cells), cells);
+}
+
+void expect_target_for(const std::string& verb, const std::string& input, std::string_view target, CellKinds cells) {
+  refuse_others(verb, input, check_cells({}, {target}, cells), cells);
 }
 
 std::string ending(Stopped stopped) {

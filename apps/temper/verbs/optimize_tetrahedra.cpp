@@ -45,6 +45,7 @@ void improve(const OptimizeSettings& s, TetInput& input, const RunFiles& files, 
   results.original = &input.mesh();
   Expected<tets::OptimizeReport> report = optimize(results.second, s.options, hooks);
   if (!report) throw as_failure(spell_options(report.error()));
+  for (std::string& note : report->notes) note = spell_options(note);
   results.report = *std::move(report);
   results.after = quality(results.second, measuring);
   results.outcomes = judge(s.requirements, results.after, criterion_of_target(s.target));

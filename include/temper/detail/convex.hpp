@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace temper {
@@ -38,7 +39,8 @@ struct ConvexProblem {
   std::vector<double> cost;  ///< One per column, or empty: none
   SparseRows rows;
   std::vector<double> constants;
-  double barrier = 0;  ///< Factor of the logarithms; 0: the slacks may reach 0
+  double barrier = 0;                    ///< Factor of the logarithms; 0: the slacks may reach 0
+  std::function<bool()> must_stop = {};  ///< Asked once an iteration: if it says yes, the solver gives up
 };
 
 struct ConvexSolution {

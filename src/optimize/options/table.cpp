@@ -240,7 +240,7 @@ constexpr OptionRow kAccuracyRows[] = {
     row<&Options::change>("change",
                           "Part of the mesh that may change. least: only the places that violate what `scheme` needs. "
                           "All else stays, bit for bit, unless many places are bad, or stay bad",
-                          {.common = true}),
+                          {.cells = kBoth, .common = true}),
     row<kAccuracy, &Accuracy::margin>(
         "margin", "Least margin in every triangle: h/l, d/l and 1 - d/l stay above it",
         {.range = inside(0, kMostMargin), .absent = "0.1, or 0.02 if `scheme` is one scheme", .needs = {kForAccuracy}}),
@@ -457,8 +457,9 @@ constexpr OptionRow kGuardRows[] = {
         "guard_angle",
         "Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never "
         "falls below it, or below the least one of "
-        "the input if that is smaller. 60: the input's. 0: no limit",
-        {.range = from_to(0, 60), .needs = {kForAccuracy}}),
+        "the input if that is smaller. 60: the input's. 0: no limit. For tetrahedra it is about dihedral angles, and "
+        "bounds the least alone",
+        {.cells = kBoth, .range = from_to(0, 60), .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::edge>("guard_edge",
                                      "Bound of the guard for the least length of an inner edge over the size of its "
                                      "triangles. 1: the input's. 0: no limit",

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "energy/whole_mesh.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "optimize/run/changes.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/step/dofs.hpp"
 #include "temper/detail/necessity.hpp"
@@ -15,10 +16,6 @@
 
 namespace temper {
 namespace {
-
-std::string count_of(std::size_t n, const char* one, const char* many) {
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
 
 /// The sentences of a report, in their order.
 class Notes {
@@ -51,26 +48,6 @@ class Notes {
                                    ? "the limits of D-Flow FM (orthogonality 0.01, flow links 0.1)"
                                    : "the limits of the target (no obtuse triangles, no short edges)";
     add(std::string("the input meets ") + limits + ": it comes back as it was");
-  }
-
-  void note_criterion_is_met() {
-    add("the input has all that the target needs (" +
-        std::string(criteria_table()[static_cast<std::size_t>(settings_.criterion)].sentence) +
-        "): it comes back as it was");
-  }
-
-  /// Other places than the bad ones have changed, too.
-  void note_whole_mesh(const RunFacts& facts) {
-    const std::string at = count_of(facts.places_left, "triangle", "triangles");
-    add(facts.many_are_bad ? at + " violated what the target needs: so many that the whole mesh was changed"
-                           : "changes nearby left " + at + " at violations: the whole mesh was changed");
-  }
-
-  void note_changes() {
-    const ChangeCounts& c = *report_.changed;
-    add(count_of(c.vertices_moved, "vertex", "vertices") + " moved, " +
-        count_of(c.weights_changed, "weight", "weights") + " and " + count_of(c.edges_changed, "edge", "edges") +
-        " changed; all else is as it was");
   }
 
   void note_violations(std::size_t n) {
@@ -250,9 +227,10 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
     notes.note_facts(facts);
   }
   if (facts.meets_limits) notes.note_limits_are_met();
-  if (facts.meets_criterion) notes.note_criterion_is_met();
-  if (facts.places_left > 0) notes.note_whole_mesh(facts);
-  if (settings.changes_least() && !facts.meets_criterion) notes.note_changes();
+  if (facts.meets_criterion) notes.add(criterion_is_met_note(settings.criterion));
+  if (facts.places_left > 0)
+    notes.add(whole_mesh_note(count_of(facts.places_left, "triangle", "triangles"), facts.many_are_bad));
+  if (settings.changes_least() && !facts.meets_criterion) notes.add(changes_note(*report.changed));
   if (settings.changes_least()) notes.note_violations(count_violations(mesh, settings));
   if (facts.error_ratio) notes.note_errors(*facts.error_ratio, ending.returns_input);
   if (facts.gave_up) {

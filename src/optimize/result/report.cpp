@@ -189,15 +189,11 @@ bool returns_input(const Rivals& rivals, const InputMesh& input, const Settings&
 
 /// Counts what differs from the input. `vertices`: number of each vertex in the input; empty if all are equal.
 ChangeCounts changes_from(const Mesh& input, const Mesh& mesh, const IdVector<VertexId, VertexId>& vertices) {
-  ChangeCounts counts;
   const auto number = [&](VertexId v) { return vertices.empty() ? v : vertices[v]; };
   const auto is_old = [&](VertexId v) { return v.index < input.n_vertices(); };
-  for (const VertexId v : mesh.vertices()) {
-    const VertexId was = number(v);
-    if (!is_old(was)) continue;
-    counts.vertices_moved += mesh.space().place(mesh.point(v)) == mesh.space().place(input.point(was)) ? 0 : 1;
-    counts.weights_changed += mesh.weight(v) == input.weight(was) ? 0 : 1;
-  }
+  ChangeCounts counts = changed_vertices(input, mesh, number, [&](VertexId v, VertexId was) {
+    return !(mesh.space().place(mesh.point(v)) == mesh.space().place(input.point(was)));
+  });
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_edge_representative(h)) continue;
     const VertexId a = number(mesh.origin(h)), b = number(mesh.target(h));

@@ -141,10 +141,6 @@ bool may_gain(const Restart& restart, const Restart& before, std::size_t left, c
   return before.splitting != restart.splitting || left <= kFarMore * count_bad(best.work.mesh, settings.executor());
 }
 
-/// The part of the triangles at violations from which on the places that they need, of 13 triangles at least, are the
-/// whole mesh.
-constexpr double kManyPlaces = 1.0 / 13;
-
 }  // namespace
 
 bool has_gained(const Candidate& now, const Candidate& before, const Settings& settings, const EnergyModel& model) {

@@ -9,6 +9,7 @@
 #include "base/loops.hpp"
 #include "base/portable_log.hpp"
 #include "tets/quality/duals.hpp"
+#include "tets/quality/measure.hpp"
 
 namespace temper::tets {
 namespace {
@@ -34,24 +35,6 @@ constexpr double kRoomOfCosine = 1e-4;
 }
 
 }  // namespace
-
-double largest_dihedral_cosine(const TetMesh& mesh, TetId t) {
-  std::array<Vec3, 4> normals;
-  double most = -1;
-  for (std::size_t f = 0; f < 4; ++f) {
-    const auto [p, q, r] = mesh.vertices(TetMesh::halfface(t, static_cast<int>(f)));
-    const Vec3 n = cross(mesh.position(q) - mesh.position(p), mesh.position(r) - mesh.position(p));
-    normals[f] = 1 / length(n) * n;
-    for (std::size_t g = 0; g < f; ++g) most = std::max(most, -dot(normals[f], normals[g]));
-  }
-  return most;
-}
-
-double largest_dihedral_cosine(const TetMesh& mesh, Executor* executor) {
-  IdVector<TetId, double> of(mesh.n_tetrahedra());
-  for_each_index(of.size(), executor, [&](std::size_t t) { of[TetId(t)] = largest_dihedral_cosine(mesh, TetId(t)); });
-  return *std::max_element(of.begin(), of.end());
-}
 
 double mean_ratio(const std::vector<double>& errors, const std::vector<double>& unit) {
   double product = 1;

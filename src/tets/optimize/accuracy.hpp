@@ -43,10 +43,6 @@ struct AccuracyErrors {
 /// Precondition: `errors` are squared, and at most two.
 [[nodiscard]] double mean_ratio(const std::vector<double>& errors, const std::vector<double>& unit);
 
-/// The cosine of the least dihedral angle of a tetrahedron or of a mesh.
-[[nodiscard]] double largest_dihedral_cosine(const TetMesh& mesh, TetId t);
-[[nodiscard]] double largest_dihedral_cosine(const TetMesh& mesh, Executor* executor);
-
 class Accuracy {
  public:
   Accuracy(TetMesh& mesh, IdVector<VertexId, Mobility> mobility, const AccuracyModel& model,

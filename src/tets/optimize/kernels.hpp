@@ -44,6 +44,8 @@ struct alignas(64) TetLanes {
 struct SweepParameters {
   double gamma = 1;
   double relaxation = 1;  ///< factor of Newton steps; a longer step is taken only if the energy falls
+  /// Largest cosine of a dihedral angle: steps to larger ones are not taken, unless it was larger before.
+  double most_cosine = 1;
 };
 
 struct StarStep {

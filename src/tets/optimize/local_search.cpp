@@ -62,14 +62,14 @@ std::vector<TetId> with_rings(const TetMesh& mesh, const VertexStars& stars, std
 }
 
 /// Sweeps over some vertices, with γ from large to small. False: it must stop.
-bool settle(Draft& draft, const std::vector<VertexId>& vertices, const MustStop& must_stop,
+bool settle(Draft& draft, const std::vector<VertexId>& vertices, double most_cosine, const MustStop& must_stop,
             Executor* executor = nullptr) {
   const IdVector<VertexId, Mobility> mobility = draft.mobilities();
   Sweeper sweeper(draft.mesh, mobility, vertices, executor);
   for (double gamma = kFirstSettlingGamma;; gamma = std::max(gamma * kSettlingFactor, kLastSettlingGamma)) {
     const bool last = gamma == kLastSettlingGamma;
     for (int i = 0; i < (last ? kLastSettlingSweeps : kSettlingSweeps); ++i) {
-      if (!sweeper.sweep({gamma, kSettlingRelaxation}, must_stop)) return false;
+      if (!sweeper.sweep({gamma, kSettlingRelaxation, most_cosine}, must_stop)) return false;
     }
     if (last) return true;
   }
@@ -116,8 +116,9 @@ std::array<VertexId, 4> names_of(const Draft& draft, TetId t) {
 
 }  // namespace
 
-bool change_all(Draft& draft, Criterion criterion, const MustStop& must_stop, Executor* executor) {
-  const std::vector<Filling> fillings = repairs(draft, violating(draft, criterion, executor), {kAllowance}, must_stop);
+bool change_all(Draft& draft, const SearchOptions& options, const MustStop& must_stop, Executor* executor) {
+  const std::vector<Filling> fillings = repairs(draft, to_change(draft, options, executor),
+                                                {kAllowance, options.rank, options.split_boundary}, must_stop);
   std::vector<TetId> changed;
   for (const Filling& f : fillings)
     changed.insert(changed.end(), f.cavity.tetrahedra.begin(), f.cavity.tetrahedra.end());
@@ -131,30 +132,33 @@ bool change_all(Draft& draft, Criterion criterion, const MustStop& must_stop, Ex
   for (const VertexId v : draft.mesh.vertices()) {
     if (near[draft.names.vertices[v]] != 0) moving.push_back(v);
   }
-  return settle(draft, moving, must_stop, executor);
+  return settle(draft, moving, options.most_cosine, must_stop, executor);
 }
 
-bool search(Draft& draft, const SearchOptions& options, const MustStop& must_stop) {
+SearchResult search(Draft& draft, const SearchOptions& options, const MustStop& must_stop) {
   const MeshState start = state_of(draft, options.criterion, kScoreGamma);
   const double most_cosine = std::max(options.most_cosine, largest_dihedral_cosine(draft.mesh, nullptr));
   MeshState best = start;
+  SearchResult result;
   for (int in_vain = 0; in_vain < options.most_in_vain;) {
     Draft trial = draft;
     std::vector<Filling> changes = first_changes(trial, static_cast<std::size_t>(in_vain++), options, must_stop);
     for (int length = 0; length < kLongestChain && !changes.empty() && trial.fill(changes); ++length) {
       const auto all = trial.mesh.vertices();
-      if (!settle(trial, {all.begin(), all.end()}, must_stop)) return is_better(best, start);
+      result.work += trial.mesh.n_tetrahedra();
+      if (!settle(trial, {all.begin(), all.end()}, options.most_cosine, must_stop)) return result;
       if (const MeshState state = state_of(trial, options.criterion, kScoreGamma);
           is_better(state, best) && largest_dihedral_cosine(trial.mesh, nullptr) <= most_cosine) {
         best = state;
         in_vain = 0;
         draft = std::move(trial);
+        result.is_better = is_better(best, start);
         break;
       }
       changes = repairs(trial, to_change(trial, options), {kAllowance, 0, options.split_boundary}, must_stop);
     }
   }
-  return is_better(best, start);
+  return result;
 }
 
 std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
@@ -174,8 +178,8 @@ std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
     const bool has_rim = options_.criterion != Criterion::well_centered;
     std::vector<TetId> around = with_rings(mesh, stars, {t}, kRings + tries + (has_rim ? 1 : 0));
     if (std::any_of(around.begin(), around.end(), [&](TetId s) { return patch_of_tet[s] != 0; })) continue;
-    const std::size_t work = around.size() * static_cast<std::size_t>(options_.most_in_vain);
-    if (work > work_) break;
+    const std::size_t work = std::min(work_, around.size() * static_cast<std::size_t>(options_.most_in_vain));
+    if (work == 0) break;
     work_ -= work;
     patches.push_back(maker.make(around));
     if (has_rim) keep_rim(patches.back().draft);
@@ -187,7 +191,8 @@ std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
     };
     // Other tetrahedra are tried along with t if all their corners may change.
     const bool alone = options_.search_each && patches.back().tetrahedra.size() < mesh.n_tetrahedra();
-    std::vector<Corners>& along = chosen_.emplace_back();
+    chosen_.push_back({{}, work});
+    std::vector<Corners>& along = chosen_.back().along;
     for (const TetId s : around) {
       const auto& corners = mesh.corners(s);
       if (s == t || (!alone && is_needy[s] != 0 && std::all_of(corners.begin(), corners.end(), may_change)))

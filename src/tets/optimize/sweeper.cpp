@@ -11,6 +11,7 @@
 #include "base/sum.hpp"
 #include "tets/mesh/box.hpp"
 #include "tets/quality/duals.hpp"
+#include "tets/quality/measure.hpp"
 
 namespace temper::tets {
 namespace {
@@ -26,6 +27,19 @@ bool is_positive(const TetMesh& mesh, std::span<const HalffaceId> link, const We
     const auto [q, r, s] = mesh.vertices(h);
     return orientation(mesh.position(q), mesh.position(r), mesh.position(s), p.position()) == Sign::positive;
   });
+}
+
+/// Says whether no dihedral angle at the center of a link gets a larger cosine than the most, or than there is.
+bool keeps_angles(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& from,
+                  const WeightedPoint& to, double most_cosine) {
+  return most_cosine == 1 || std::all_of(link.begin(), link.end(), [&](HalffaceId h) {
+           const auto [q, r, s] = mesh.vertices(h);
+           const auto cosine = [&, q = q, r = r, s = s](const WeightedPoint& p) {
+             return largest_dihedral_cosine({mesh.position(q), mesh.position(r), mesh.position(s), p.position()});
+           };
+           const double now = cosine(to);
+           return now <= most_cosine || now <= cosine(from);
+         });
 }
 
 /// Numbers of tasks of some size for n items.
@@ -72,7 +86,9 @@ WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halfface
                        const Mobility& mobility, const SweepParameters& parameters, std::vector<LinkLanes>& room) {
   const Link link = gather(mesh, halffaces, room);
   const auto [p, lower, certain] = kernels().step(link, origin, mobility, parameters);
-  return lower && is_exact(p) && (certain || is_positive(mesh, halffaces, p)) ? p : origin;
+  const bool is_kept = lower && is_exact(p) && (certain || is_positive(mesh, halffaces, p)) &&
+                       keeps_angles(mesh, halffaces, origin, p, parameters.most_cosine);
+  return is_kept ? p : origin;
 }
 
 Sweeper::Sweeper(TetMesh& mesh, const IdVector<VertexId, Mobility>& mobility, std::span<const VertexId> vertices,

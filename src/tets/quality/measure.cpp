@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/loops.hpp"
 #include "quality/measure.hpp"
 #include "tets/mesh/tables.hpp"
 
@@ -27,6 +28,30 @@ double area(const FacePoints& face) {
 }
 
 double length_of_area(double area) { return std::sqrt(4 / std::numbers::sqrt3 * area); }
+
+double largest_dihedral_cosine(const std::array<Vec3, 4>& corners) {
+  std::array<Vec3, 4> normals;
+  double most = -1;
+  for (std::size_t f = 0; f < 4; ++f) {
+    const auto [i, j, k] = TetMesh::kFaceCorners[f];
+    const Vec3 &p = corners[std::size_t(i)], &q = corners[std::size_t(j)], &r = corners[std::size_t(k)];
+    const Vec3 n = cross(q - p, r - p);
+    normals[f] = 1 / length(n) * n;
+    for (std::size_t g = 0; g < f; ++g) most = std::max(most, -dot(normals[f], normals[g]));
+  }
+  return most;
+}
+
+double largest_dihedral_cosine(const TetMesh& mesh, TetId t) {
+  const auto& [p, q, r, s] = mesh.corners(t);
+  return largest_dihedral_cosine({mesh.position(p), mesh.position(q), mesh.position(r), mesh.position(s)});
+}
+
+double largest_dihedral_cosine(const TetMesh& mesh, Executor* executor) {
+  IdVector<TetId, double> of(mesh.n_tetrahedra());
+  for_each_index(of.size(), executor, [&](std::size_t t) { of[TetId(t)] = largest_dihedral_cosine(mesh, TetId(t)); });
+  return *std::max_element(of.begin(), of.end());
+}
 
 TetMeasure measure_tetrahedron(const std::array<WeightedPoint, 4>& p) {
   std::array<Vec3, 4> at;

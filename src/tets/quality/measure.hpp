@@ -35,6 +35,11 @@ using FacePoints = std::array<WeightedPoint, 3>;
 /// The side of the equilateral triangle with this area.
 [[nodiscard]] double length_of_area(double area);
 
+/// The cosine of the least dihedral angle of a tetrahedron or of a mesh.
+[[nodiscard]] double largest_dihedral_cosine(const std::array<Vec3, 4>& corners);
+[[nodiscard]] double largest_dihedral_cosine(const TetMesh& mesh, TetId t);
+[[nodiscard]] double largest_dihedral_cosine(const TetMesh& mesh, Executor* executor);
+
 /// The entry of the report on one tetrahedron.
 [[nodiscard]] WorstTet describe(const TetMesh& mesh, TetId t, const IdVector<VertexId, std::uint8_t>& on_boundary);
 

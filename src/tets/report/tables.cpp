@@ -96,9 +96,7 @@ const ReportTable& table_of(const OptimizeReport*) {
       {{"vertices", "Number of each vertex in the input, −1 for inserted ones", "", vertices_of, kLibraries},
        {"bad_before", "Number of tetrahedra of the input that are not well-centered", "", bad_before, kLibraries},
        {"bad_after", "The same number of the result", "", bad_after, kLibraries},
-       {"size", "None", "", [](const R&) { return std::optional<SizeChange>(); }, kLibraries},
-       {"changed", "None", "", [](const R&) { return std::optional<ChangeCounts>(); }, kLibraries},
-       {"notes", "None", "", [](const R&) { return std::vector<std::string>(); }, kLibraries}});
+       {"size", "None", "", [](const R&) { return std::optional<SizeChange>(); }, kLibraries}});
   return table;
 }
 

@@ -1,0 +1,38 @@
+// What a run changed, and what it says about that, for triangles and for tetrahedra.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "temper/detail/criterion.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper {
+
+/// The part of the cells at violations from which on the places that they need are the whole mesh: a place is 13
+/// triangles at least.
+inline constexpr double kManyPlaces = 1.0 / 13;
+
+/// Counts the vertices of the input that are elsewhere, or have another weight. `number(v)`: the number of v in the
+/// input, or one beyond. `is_moved(v, was)`: says whether v is elsewhere.
+template <class Mesh, class Number, class IsMoved>
+[[nodiscard]] ChangeCounts changed_vertices(const Mesh& input, const Mesh& mesh, const Number& number,
+                                            const IsMoved& is_moved) {
+  ChangeCounts counts;
+  for (const VertexId v : mesh.vertices()) {
+    const VertexId was = number(v);
+    if (was.index >= input.n_vertices()) continue;
+    counts.vertices_moved += is_moved(v, was) ? 1 : 0;
+    counts.weights_changed += mesh.weight(v) == input.weight(was) ? 0 : 1;
+  }
+  return counts;
+}
+
+/// "3 vertices moved, 4 weights and 0 edges changed; all else is as it was"
+[[nodiscard]] std::string changes_note(const ChangeCounts& changed);
+/// Of an input that needs no change.
+[[nodiscard]] std::string criterion_is_met_note(Criterion criterion);
+/// Other places than the bad ones have changed, too. `places`: "3 triangles" at violations, all or those left.
+[[nodiscard]] std::string whole_mesh_note(const std::string& places, bool many_are_bad);
+
+}  // namespace temper
