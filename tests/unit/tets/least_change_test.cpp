@@ -27,8 +27,8 @@ OptimizeOptions least(Scheme scheme) { return {.scheme = scheme, .change = Chang
 
 /// A lattice of weights 0 that meets all criteria, but for one vertex in its middle, off its place.
 TetMesh with_one_bad_place(double shift) {
-  TetMesh mesh = test::mesh_of(test::body_centered(8));
-  const Vec3 middle = {4, 4, 4};
+  TetMesh mesh = test::mesh_of(test::body_centered(6));
+  const Vec3 middle = {3, 3, 3};
   const auto distance = [&](VertexId v) { return squared_length(mesh.position(v) - middle); };
   const auto all = mesh.vertices();
   const VertexId v = *std::min_element(all.begin(), all.end(), [&](VertexId a, VertexId b) {
@@ -73,7 +73,7 @@ TEST(TetLeastChange, MakesABadPlaceGoodAndLeavesAllElseBitForBit) {
     }
     EXPECT_EQ(report->changed->vertices_moved, moved);
     EXPECT_EQ(report->changed->weights_changed, weighed);
-    EXPECT_LT(moved + weighed, mesh.n_vertices() / 4) << static_cast<int>(scheme);
+    EXPECT_LT(moved + weighed, mesh.n_vertices() / 2) << static_cast<int>(scheme);
     const auto before = edges_of(input);
     std::size_t new_edges = 0;
     for (const auto& [a, b] : edges_of(mesh)) {
@@ -111,6 +111,23 @@ TEST(TetLeastChange, ChangesTheWholeMeshIfManyPlacesAreBadAndSaysSo) {
   EXPECT_NE(report->notes[0].find(std::to_string(bad) + " tetrahedra violated"), std::string::npos);
 }
 
+TEST(TetDescent, LeavesNoCoefficientNegativeOnTheSurfaceOrInOneRegion) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    TetMesh input = test::mesh_of(test::shaken(test::cubes(3, test::kSixTets), 0.15, 0, seed));
+    for (const TetId t : input.tetrahedra()) input.set_region(t, t.index < input.n_tetrahedra() / 2 ? 1 : 2);
+    std::array<std::size_t, 2> left = {};
+    for (const int steps : {0, 60}) {
+      OptimizeOptions options = {.scheme = Scheme::vertex};
+      options.tets.accuracy_steps = steps;
+      options.tets.repair_trials = 0;
+      TetMesh mesh = input;
+      ASSERT_TRUE(optimize(mesh, options, with_weights()));
+      left[steps > 0] = violated_edges(mesh, nullptr).size();
+    }
+    EXPECT_LE(left[1], left[0]) << seed;
+  }
+}
+
 double least_dihedral(const TetMesh& mesh) {
   return 180 / std::numbers::pi * std::acos(largest_dihedral_cosine(mesh, nullptr));
 }
@@ -133,7 +150,7 @@ TEST(TetGuard, NoDihedralAngleFallsBelowItsLimitOrTheInputs) {
       ASSERT_TRUE(optimize(guarded, options, with_weights()));
       EXPECT_GE(least_dihedral(guarded), std::min(limit, before) - 1e-6) << static_cast<int>(scheme);
       EXPECT_LE(cells_at_violations(guarded, criterion_of(scheme), nullptr).size(),
-                cells_at_violations(input, criterion_of(scheme), nullptr).size());
+                cells_at_violations(input, criterion_of(scheme), nullptr).size() - (limit < before ? 1 : 0));
     }
     if (scheme == Scheme::all) {
       EXPECT_LT(without, 0.9 * before);  // the guard had something to do
