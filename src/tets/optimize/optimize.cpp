@@ -16,6 +16,7 @@
 #include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/hot_sweeps.hpp"
 #include "tets/optimize/local_search.hpp"
+#include "tets/optimize/repair.hpp"
 #include "tets/optimize/run.hpp"
 #include "tets/optimize/sweeper.hpp"
 
@@ -39,7 +40,7 @@ constexpr double kSmallMargin = 0.01, kGainOfRound = 1e-3;
 // The most sweeps for a HOT energy.
 constexpr int kMostHotSweeps = 32;
 // Tetrahedra that repairs may improve, each time they do: with 5,000 tetrahedra some ten seconds on one core.
-constexpr std::size_t kRepairWork = 400'000, kRepairWorkPerTet = 60;
+constexpr std::size_t kRepairWork = 300'000, kRepairWorkPerTet = 40;
 // Trials in vain of a first pass over all patches: most of those that help are among the first.
 constexpr int kFewTrials = 2;
 // What weights alone have to keep for each criterion.
@@ -71,7 +72,7 @@ class Driver : Run {
     const auto n_tetrahedra = static_cast<double>(input_.mesh.n_tetrahedra());
     many_are_bad_ = static_cast<double>(best_bad_) > kManyPlaces * n_tetrahedra;
     const std::size_t at_start = best_bad_;
-    if (best_bad_ == 0 || takes_least_weights()) return;
+    if (best_bad_ == 0 || takes_least_weights() || split_surface()) return;
     if (!many_are_bad_ && changes_connectivity(options_)) repair_in_patches();
     const std::size_t left = best_bad_;
     if (left == 0 || stopped_early()) return;
@@ -94,7 +95,7 @@ class Driver : Run {
   }
   bool made_good_by_weights() {
     const Draft start = draft_;
-    if (takes_least_weights()) return true;
+    if (takes_least_weights() || split_surface()) return true;
     if (!changes_connectivity(options_)) return false;
     repair_in_patches();
     if (best_bad_ == 0) {
@@ -107,8 +108,16 @@ class Driver : Run {
   /// Gives the best mesh the least weights that keep the criterion, or those that violate it little. Says whether it is
   /// kept now.
   bool takes_least_weights() {
-    if (options_.unknowns == temper::Unknowns::positions || !hooks_.solvers.lp || !hooks_.solvers.convex) return false;
+    if (!has_weights_alone()) return false;
     draft_ = *best_.kept;
+    give_least_weights();
+    return best_bad_ == 0;
+  }
+  [[nodiscard]] bool has_weights_alone() const {
+    return options_.unknowns != temper::Unknowns::positions && hooks_.solvers.lp && hooks_.solvers.convex;
+  }
+  /// To the mesh that changes, which then counts as one more sweep.
+  void give_least_weights() {
     WeightOptions wanted;
     wanted.goal = WeightGoal::least;
     wanted.constraints = kConstraints[static_cast<std::size_t>(criterion_)];
@@ -116,9 +125,21 @@ class Driver : Run {
     if (changes_least()) wanted.whole = 0;  // in small meshes, too, only the surroundings of bad places
     wanted.must_stop = [this] { return is_stopped(0); };
     const auto found = find_weights(draft_.mesh, *hooks_.solvers.lp(), wanted, hooks_.solvers.convex().get());
-    if (!found || found->weights.size() != draft_.mesh.n_vertices()) return false;
+    if (!found || found->weights.size() != draft_.mesh.n_vertices()) return;
     for (const VertexId v : draft_.mesh.vertices()) draft_.mesh.set_weight(v, found->weights[v]);
     end_round(true);
+  }
+
+  /// Splits edges of the surface that have negative coefficients with all weights, as Delaunay refinement does, as long
+  /// as violations get fewer. Says whether none is left.
+  bool split_surface() {
+    if (options_.boundary != BoundaryVertices::split || criterion_ != Criterion::coefficients || !has_weights_alone())
+      return false;
+    for (std::size_t before = best_bad_ + 1; best_bad_ > 0 && best_bad_ < before && may_sweep();) {
+      before = best_bad_;
+      if (!split_violated_edges(draft_, hooks_.executor)) break;
+      give_least_weights();
+    }
     return best_bad_ == 0;
   }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/sort_unique.hpp"
+#include "temper/tets/criterion.hpp"
 #include "tets/energy/star.hpp"
 
 namespace temper::tets {
@@ -147,6 +148,37 @@ std::vector<Filling> repairs(const Draft& draft, const std::vector<TetId>& tetra
     chosen.push_back(std::move(one.filling));
   }
   return chosen;
+}
+
+bool split_violated_edges(Draft& draft, Executor* executor) {
+  const TetMesh& mesh = draft.mesh;
+  std::vector<ViolatedEdge> edges = violated_edges(mesh, executor);
+  std::erase_if(edges, [](const ViolatedEdge& e) { return e.kind == DualKind::inside; });
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const ViolatedEdge& a, const ViolatedEdge& b) { return a.dual_over_l2 < b.dual_over_l2; });
+  const Cavities cavities(mesh);
+  const VertexStars stars(mesh);
+  IdVector<TetId, std::uint8_t> used(mesh.n_tetrahedra());
+  std::vector<Filling> chosen;
+  for (const ViolatedEdge& e : edges) {
+    const auto [a, b] = e.vertices;
+    const auto link = stars.link(a);
+    const auto at_edge = std::find_if(link.begin(), link.end(), [&, b = b](HalffaceId h) {
+      const auto corners = mesh.vertices(h);
+      return std::find(corners.begin(), corners.end(), b) != corners.end();
+    });
+    auto cavity = cavities.to_split(TetMesh::tetrahedron(*at_edge), a, b);
+    if (!cavity) continue;
+    const auto& around = cavity->tetrahedra;
+    if (std::any_of(around.begin(), around.end(), [&](TetId t) { return used[t] != 0; })) continue;
+    const WeightedPoint p = mesh.point(a), q = mesh.point(b);
+    Filling filling{
+        *std::move(cavity), {}, {0.5 * (p.x + q.x), 0.5 * (p.y + q.y), 0.5 * (p.z + q.z), 0.5 * (p.w + q.w)}, {}};
+    if (!is_valid(mesh, filling)) continue;
+    for (const TetId t : filling.cavity.tetrahedra) used[t] = 1;
+    chosen.push_back(std::move(filling));
+  }
+  return !chosen.empty() && draft.fill(chosen);
 }
 
 }  // namespace temper::tets

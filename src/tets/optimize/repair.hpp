@@ -25,4 +25,8 @@ struct RepairOptions {
 [[nodiscard]] std::vector<Filling> repairs(const Draft& draft, const std::vector<TetId>& tetrahedra,
                                            const RepairOptions& options, const MustStop& must_stop);
 
+/// Splits edges of the boundary and of interfaces that have negative coefficients, at their midpoints, the worst first.
+/// The pieces share no tetrahedron. False: there was none.
+bool split_violated_edges(Draft& draft, Executor* executor);
+
 }  // namespace temper::tets

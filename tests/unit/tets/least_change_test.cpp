@@ -10,8 +10,10 @@
 #include "temper/detail/lp.hpp"
 #include "temper/tets/criterion.hpp"
 #include "temper/tets/optimize.hpp"
+#include "temper/tets/quality.hpp"
 #include "temper/tets/weights.hpp"
 #include "tets/quality/measure.hpp"
+#include "unit/tets/pinwheel_cone.hpp"
 
 namespace temper::tets {
 namespace {
@@ -109,6 +111,24 @@ TEST(TetLeastChange, ChangesTheWholeMeshIfManyPlacesAreBadAndSaysSo) {
   EXPECT_LT(cells_at_violations(mesh, Criterion::well_centered, nullptr).size(), bad);
   ASSERT_FALSE(report->notes.empty());
   EXPECT_NE(report->notes[0].find(std::to_string(bad) + " tetrahedra violated"), std::string::npos);
+}
+
+TEST(TetSurface, GetsVerticesWhereNoWeightsMakeItsEdgesRegularOnRequestAlone) {
+  const TetMesh input = pinwheel_cone();
+  OptimizeOptions options = {.scheme = Scheme::vertex};
+  options.tets.accuracy_steps = 0;
+  for (const bool splits : {false, true}) {
+    options.boundary = splits ? BoundaryVertices::split : BoundaryVertices::keep;
+    options.tets.repair_trials = splits ? 1 : 0;
+    TetMesh mesh = input;
+    const auto report = optimize(mesh, options, with_weights());
+    ASSERT_TRUE(report);
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    EXPECT_NEAR(quality(mesh).volume, quality(input).volume, 1e-9);
+    EXPECT_EQ(meets(mesh, Criterion::coefficients, nullptr), splits);
+    EXPECT_EQ(report->vertices_inserted > 0, splits);
+    EXPECT_EQ(report->vertices_removed, 0U);
+  }
 }
 
 TEST(TetDescent, LeavesNoCoefficientNegativeOnTheSurfaceOrInOneRegion) {
