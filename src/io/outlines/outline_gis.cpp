@@ -66,7 +66,7 @@ class GisReader {
       if (gdal_->OGR_F_IsFieldSetAndNotNull(feature, i) == 0) continue;
       void* const field = gdal_->OGR_F_GetFieldDefnRef(feature, i);
       std::string name = gdal_->OGR_Fld_GetNameRef(field);
-      if (const std::string lower = lower_case(name); std::ranges::find(kKeptNames, lower) != kProperties.end())
+      if (const std::string lower = lower_case(name); std::ranges::find(kKeptNames, lower) != kKeptNames.end())
         name = lower;
       constexpr int kInteger = 0, kReal = 2, kInteger64 = 12;
       const int type = gdal_->OGR_Fld_GetType(field);
