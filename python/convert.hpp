@@ -231,3 +231,4 @@ TEMPER_PYTHON_NAMES(temper::BoundaryTreatment, "as_is", "absolute", "mirrored");
 TEMPER_PYTHON_NAMES(temper::ProjectionKind, "stereographic", "mercator", "transverse_mercator");
 TEMPER_PYTHON_NAMES(temper::io::Encoding, "ascii", "base64", "appended");
 TEMPER_PYTHON_NAMES(temper::io::Positive, "up", "down");
+TEMPER_PYTHON_NAMES(temper::CellsOf, "power", "triangles");

@@ -135,6 +135,9 @@ struct PowerCells {
   std::vector<Vec3> sphere_corners;   ///< Corners on the sphere, instead of corners, at its radius; sides are arcs
   std::vector<double> polygon_areas;  ///< Area of each polygon, > 0
   IdVector<VertexId, double> areas;   ///< Area of all polygons of each vertex. Sum: the area of the domain
+  /// Region of the triangles that have the largest part of each cell; the lowest number of equal ones
+  IdVector<VertexId, std::int32_t> regions;
+  IdVector<VertexId, double> region_shares;  ///< This part over the area of the cell, 0 to 1; 0 for no polygons
   /// Each pair of neighboring cells once, ascending. In a well-centered mesh faces are the edges, and their widths are
   /// the dual lengths.
   std::vector<PowerFace> faces;

@@ -434,15 +434,50 @@ def _tet_dec_of(mesh: TetMesh, coefficient: npt.NDArray[np.float64]) -> TetDecCo
     return TetDecComplex(**arrays, _handle=handle)
 
 
-# --- columns of cells under layers ---------------------------------------------------------------------------
+# --- barriers and columns of cells under layers ---------------------------------------------------------------------------
+
+
+@dataclasses.dataclass(frozen=True)
+class Barrier(Record):
+    """A barrier to flow on the common face of two cells, such as a piece of a fault."""
+
+    name: str
+    first: int
+    """Cells as seen from above, from 0: numbers of vertices or triangles."""
+    second: int
+    characteristic: float
+    """Hydraulic characteristic: the conductivity of the barrier over its width [1/time]. If it is negative, its
+    absolute value is a factor on the conductance between the two cells."""
+
+
+def barriers_of_lines(mesh: MeshLike, characteristics: Mapping[str, float]) -> list[Barrier]:
+    """The barriers on the edges of tagged lines, each between the triangles on its two sides. They are for
+    ``columns(..., cells="triangles")``, whose faces are edges.
+
+    Parameters
+    ----------
+    mesh : MeshLike
+        A mesh with tagged lines.
+    characteristics : dict of str to float
+        Hydraulic characteristic of each line, by its name or tag [1/time].
+
+    Raises
+    ------
+    TemperError
+        No line inside the domain has the name or tag; a value that is not finite.
+    """
+    named = [(str(name), float(value)) for name, value in characteristics.items()]
+    return [Barrier(*row) for row in _temper.barriers_of_lines(as_mesh(mesh)._handle, named)]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Columns(Record):
-    """Power cells under layers. Arrays of cells are (layers, vertices); the number of a cell is
-    ``layer * n_vertices + vertex``. All are read-only views on one value, without copies."""
+    """Power cells or triangles under layers. Arrays of cells are (layers, columns); the number of a cell is
+    ``layer * n_columns + column``. A column has the number of its vertex or triangle. All are read-only views on one
+    value, without copies."""
 
-    n_vertices: int
+    n_columns: int
+    """Number of columns: of vertices, or of triangles."""
     n_layers: int
     states: npt.NDArray[np.int8]
     """State of each cell, with the numbers of MODFLOW's IDOMAIN: 1 active, 0 inactive, −1 pinched out."""
@@ -452,7 +487,7 @@ class Columns(Record):
     volumes: npt.NDArray[np.float64]
     """Volumes of active cells; 0 for others [length³]."""
     areas: npt.NDArray[np.float64]
-    """Areas of the power cells, (n_vertices,) [length²]."""
+    """Areas of the columns as seen from above, (n_columns,) [length²]."""
     cells: npt.NDArray[np.uint32]
     """Cells of each connection, (c, 2), the lower number first; ascending."""
     is_vertical: npt.NDArray[np.bool_]
@@ -465,13 +500,14 @@ class Columns(Record):
     """Areas of the faces, (c,) [length²]. For cells next to each other the thickness is linear between their
     centers."""
     groups: list[tuple[str, str, int, float]]
-    """Power cells of marked points and tagged lines: name or tag, ``"point"``, ``"line"`` or ``"boundary"``, vertex,
-    and the length of the lines in the cell. Each name and kind has a cell once."""
+    """Columns of marked points and tagged lines: name or tag, ``"point"``, ``"line"`` or ``"boundary"``, column, and
+    the length of the lines in it. Each name and kind has a column once. A point is in one power cell, but in all
+    triangles around it; a line between two triangles is half in each."""
     _handle: Any = dataclasses.field(repr=False, compare=False)
     _arguments: Any = dataclasses.field(repr=False, compare=False)
 
     def __reduce__(self) -> Any:
-        return columns, self._arguments
+        return _columns_of, self._arguments
 
     def write(
         self,
@@ -483,38 +519,68 @@ class Columns(Record):
             "tough",
             "vtu",
         ),
+        barriers: Sequence[Barrier] | None = None,
         threads: int | None = None,
     ) -> list[str]:
         """Writes ``mesh.disv`` and ``mesh.disu`` (MODFLOW 6), ``MESH`` (TOUGH), ``mesh.uge`` (PFLOTRAN), and for
         ParaView ``columns.vtu`` and the dual, into a folder (docs/reference/formats/layers.md). If there are
-        ``groups``, tables of their cells stand next to the first three: ``mesh.disv.csv`` and so on. On an error no
-        file is written. Returns the paths of the files."""
-        return self._handle.write(os.fspath(folder), list(formats), threads)
+        ``groups``, tables of their cells stand next to the first three: ``mesh.disv.csv`` and so on. With
+        ``barriers``, ``mesh.disv.hfb`` and ``mesh.disu.hfb`` are packages HFB. On an error no file is written. Returns
+        the paths of the files."""
+        rows = None if barriers is None else [dataclasses.astuple(barrier) for barrier in barriers]
+        return self._handle.write(os.fspath(folder), list(formats), threads, rows)
+
+    def hfb_data(self, barriers: Sequence[Barrier]) -> list[tuple[tuple[int, int], tuple[int, int], float]]:
+        """The barriers as ``stress_period_data`` of ``flopy.mf6.ModflowGwfhfb`` for DISV: ((layer, cell), (layer,
+        cell), hydraulic characteristic), from 0. Each barrier is in all layers in which both of its cells are active.
+
+        Raises
+        ------
+        ValueError
+            Two cells without a common face.
+        """
+        beside = self.cells[~self.is_vertical] % self.n_columns
+        faces = {tuple(pair) for pair in np.sort(beside, axis=1).tolist()}
+        rows = []
+        for b in barriers:
+            if (min(b.first, b.second), max(b.first, b.second)) not in faces:
+                raise ValueError(f"hfb_data: barrier {b.name!r}: cells {b.first} and {b.second} have no common face in any layer")
+            for layer in np.flatnonzero((self.states[:, [b.first, b.second]] == 1).all(axis=1)).tolist():
+                rows.append(((layer, b.first), (layer, b.second), b.characteristic))
+        return rows
 
 
 def columns(
-    mesh: MeshLike, surfaces: npt.ArrayLike, active: npt.ArrayLike | None = None, pinch_out: float = 0.0
+    mesh: MeshLike,
+    surfaces: npt.ArrayLike,
+    active: npt.ArrayLike | None = None,
+    pinch_out: float = 0.0,
+    *,
+    cells: Literal["power", "triangles"] = "power",
 ) -> Columns:
-    """The columns of a mesh: its power cells between the surfaces of layers, with their neighbors.
+    """The columns of a mesh: its cells between the surfaces of layers, with their neighbors.
 
     Parameters
     ----------
     mesh : MeshLike
         A regular mesh in the plane.
     surfaces : array_like
-        Heights, (n_vertices, layers + 1): the top and then the bottom of each layer, going down [length]; or (layers +
-        1,), the same at all vertices. NaN means no surface; then the layers above and below it are inactive.
+        Heights, (n_columns, layers + 1): the top and then the bottom of each layer, going down [length]; or (layers +
+        1,), the same in all columns. NaN means no surface; then the layers above and below it are inactive.
     active : array_like, optional
-        Activity of the layers, bool, (n_vertices, layers) or (layers,). By default all are active.
+        Activity of the layers, bool, (n_columns, layers) or (layers,). By default all are active.
     pinch_out : float
         Layers no thicker than this are pinched out [length]. Such a layer has no cell, and the cells above and below it
         are neighbors.
+    cells : {"power", "triangles"}
+        Cells as seen from above: the power cells of vertices, with the vertices as centers, or the triangles, with
+        their orthocenters. There are as many columns as vertices or triangles.
 
     Raises
     ------
     TemperError
-        Surfaces that are not one above the other; edges that are not regular, or a face that is not between its two
-        vertices; a mesh of the sphere; no active cell.
+        Surfaces that are not one above the other; for power cells edges that are not regular; a face that is not
+        between the centers of its two cells; a mesh of the sphere; no active cell.
 
     Examples
     --------
@@ -530,19 +596,25 @@ def columns(
     given = as_mesh(mesh)
     heights = np.asarray(surfaces, dtype=np.float64)
     if heights.ndim not in (1, 2) or heights.shape[-1] < 2:
-        raise ValueError(f"surfaces: expected (n_vertices, layers + 1) or (layers + 1,) numbers, found {heights.shape}")
-    n, n_layers = given.n_vertices, heights.shape[-1] - 1
+        raise ValueError(f"surfaces: expected (n_columns, layers + 1) or (layers + 1,) numbers, found {heights.shape}")
+    n, n_layers = given.n_triangles if cells == "triangles" else given.n_vertices, heights.shape[-1] - 1
     heights = _for_all(heights, (n, n_layers + 1), "surfaces")
     flags = np.zeros((0, n_layers), dtype=np.int32)
     if active is not None:
         flags = _for_all(np.asarray(active, dtype=bool).astype(np.int32), (n, n_layers), "active")
-    handle = _temper.columns(given._handle, n_layers, heights, flags, float(pinch_out))
-    arguments = (given.copy(), heights, None if active is None else flags, float(pinch_out))
+    handle = _temper.columns(given._handle, n_layers, heights, flags, float(pinch_out), cells)
+    arguments = (given.copy(), heights, None if active is None else flags, float(pinch_out), cells)
     return Columns(**handle.arrays(), _handle=handle, _arguments=arguments)
 
 
+def _columns_of(
+    mesh: Mesh, surfaces: npt.ArrayLike, active: npt.ArrayLike | None, pinch_out: float, cells: Any
+) -> Columns:
+    return columns(mesh, surfaces, active, pinch_out, cells=cells)
+
+
 def _for_all(values: npt.NDArray[Any], shape: tuple[int, int], name: str) -> npt.NDArray[Any]:
-    """The values of each vertex, from an array for each vertex or one for all."""
+    """The values of each column, from an array for each column or one for all."""
     if values.shape not in (shape, shape[1:]):
         raise ValueError(f"{name}: expected {shape} or {shape[1:]} numbers, found {values.shape}")
     return np.ascontiguousarray(np.broadcast_to(values, shape))

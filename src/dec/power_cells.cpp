@@ -50,6 +50,9 @@ class CellBuilder {
   [[nodiscard]] Vec2 midpoint(VertexId v, HalfedgeId h, const Chart& chart) const;
   void emit_joined(VertexId v, std::span<const CellPiece> pieces);
   void emit(VertexId v, const Chart& chart, const LocalPolygon& polygon);
+  void find_region(VertexId v, std::span<const CellPiece> pieces);
+  void add_part(TriangleId t, double area);
+  [[nodiscard]] double part_in(VertexId v, HalfedgeId h) const;
   void add_faces(const CellPiece& piece);
   void add_plain_faces();
   void join_faces();
@@ -62,6 +65,11 @@ class CellBuilder {
   IdVector<TriangleId, char> plain_;  // triangles
   IdVector<VertexId, char> special_;  // vertices: cells to be joined from pieces
   std::vector<CellPiece> pieces_;     // of special vertices, by vertex
+  struct RegionPart {
+    std::int32_t region;
+    double area;
+  };
+  std::vector<RegionPart> parts_;  // of the cell at hand
   PowerCells cells_;
 };
 
@@ -197,6 +205,46 @@ void CellBuilder::emit(VertexId v, const Chart& chart, const LocalPolygon& polyg
   cells_.areas[v] += area;
 }
 
+/// The area that a plain cell has in the triangle of h, which begins at v: two right triangles.
+double CellBuilder::part_in(VertexId v, HalfedgeId h) const {
+  double area = 0;
+  for (const HalfedgeId side : {h, Mesh::prev(h)}) {
+    const DecEdge& e = complex_.edges[complex_.edge_of_halfedge[side]];
+    const double d = e.from == v ? e.crossing : e.length - e.crossing;
+    area += mesh_.space().right_triangle_area(d, e.left == Mesh::triangle(h) ? e.left_height : e.right_height);
+  }
+  return area;
+}
+
+void CellBuilder::add_part(TriangleId t, double area) {
+  const auto known = std::ranges::find(parts_, mesh_.region(t), &RegionPart::region);
+  if (known == parts_.end())
+    parts_.push_back({mesh_.region(t), area});
+  else
+    known->area += area;
+}
+
+void CellBuilder::find_region(VertexId v, std::span<const CellPiece> pieces) {
+  parts_.clear();
+  for (const CellPiece& piece : pieces) {
+    LocalPolygon polygon;
+    for (const PieceCorner& c : piece.corners) polygon.push_back(c.at);
+    add_part(piece.triangle, area_in_space(Chart::of_triangle(mesh_, piece.triangle), polygon));
+  }
+  const bool is_empty = special_[v] != 0 && pieces.empty();
+  for (const HalfedgeId h : mesh_.star(v)) {
+    if (is_empty || special_[v] == 0) add_part(Mesh::triangle(h), is_empty ? 0 : part_in(v, h));
+  }
+  double sum = 0;
+  RegionPart most = parts_.front();
+  for (const RegionPart& part : parts_) {
+    sum += part.area;
+    if (part.area > most.area || (part.area == most.area && part.region < most.region)) most = part;
+  }
+  cells_.regions[v] = most.region;
+  cells_.region_shares[v] = is_empty ? 0 : parts_.size() == 1 ? 1 : most.area / sum;
+}
+
 /// The sides of a piece with other cells beyond. Two pieces have the side; the piece of the lower vertex adds it.
 void CellBuilder::add_faces(const CellPiece& piece) {
   const bool plane = mesh_.space().is_plane();
@@ -244,6 +292,8 @@ PowerCells CellBuilder::build() {
   add_plain_faces();
   join_faces();
   cells_.areas.assign(mesh_.n_vertices(), 0.0);
+  cells_.regions.assign(mesh_.n_vertices(), 0);
+  cells_.region_shares.assign(mesh_.n_vertices(), 0.0);
   const std::size_t n = mesh_.n_vertices(),
                     n_sides = mesh_.n_halfedges() + 3 * (2 * complex_.edges.size() - mesh_.n_halfedges());
   cells_.vertices.reserve(n);
@@ -266,6 +316,7 @@ PowerCells CellBuilder::build() {
     } else {
       emit_joined(v, {pieces_.data() + first, end - first});
     }
+    find_region(v, {pieces_.data() + first, end - first});
     first = end;
   }
   return std::move(cells_);

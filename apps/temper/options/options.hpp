@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "help/command.hpp"
+#include "temper/detail/cells.hpp"
 #include "temper/detail/optimize_table.hpp"
 #include "temper/energy.hpp"
 #include "temper/io.hpp"
@@ -86,6 +87,10 @@ struct Choice {
   T value;
   CellKinds cells = CellKinds::both;  ///< cells of the meshes that it is for
 };
+
+/// The choices of --cells.
+inline constexpr Choice<CellsOf> kCellsOf[] = {{"power", CellsOf::vertices, CellKinds::triangles},
+                                               {"triangles", CellsOf::triangles, CellKinds::triangles}};
 
 Option& add_name(Command& command, const std::string& name, std::vector<std::string_view> names,
                  std::function<void(std::string_view)> use, const std::string& description);

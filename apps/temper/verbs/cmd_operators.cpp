@@ -37,6 +37,8 @@ struct DecSettings {
   std::string input, output, formats = "npz,mtx,vtu";
   std::string layers, coefficient;
   double pinch_out = 0;
+  CellsOf cells = CellsOf::vertices;
+  std::string barriers;
   std::optional<Metric> metric;
   std::uint64_t threads = 0;
   bool json = false;
@@ -58,13 +60,22 @@ void add_options(Command& command, DecSettings& s) {
   add_tensor(command, s.metric, "Make stars, fluxes, orthocenters and power cells");
   command.group("Layers");
   add_text(command, "--layers", "FILE", s.layers,
-           "CSV file with the heights of the surfaces between layers, for columns of cells below the power cells. Its "
-           "title line is vertex,top,bottom 1,bottom 2,... Each vertex has a row, or one row with * holds for all. See "
+           "CSV file with the heights of the surfaces between layers, for columns of cells below the mesh. Its title "
+           "line is vertex,top,bottom 1,bottom 2,... Each vertex has a row, or one row with * holds for all. See "
            "docs/reference/formats/layers.md.")
       .cells = CellKinds::triangles;
+  add_choice(command, "--cells", kCellsOf, s.cells,
+             "Cells seen from above. 'power' takes the power cells, with vertices as centers. 'triangles' takes the "
+             "triangles, with orthocenters as centers.");
   add_number(command, "--pinch-out", s.pinch_out, kNotNegative,
              "Least thickness. If a layer is not thicker than this at a vertex, it has no cell there. The cells above "
              "and below are then connected.")
+      .cells = CellKinds::triangles;
+  add_text(
+      command, "--barriers", "NAME=C,...", s.barriers,
+      "Lines that are barriers to flow, by name or tag, each with its hydraulic characteristic: the conductivity of "
+      "the barrier over its width. The files of 'disv' and 'disu' then have one for MODFLOW's package HFB. It needs "
+      "--cells triangles, whose faces are the edges of lines.")
       .cells = CellKinds::triangles;
   command.group("Report");
   command.add_flag("--json", s.json, "Print the summary as JSON.");
@@ -75,7 +86,8 @@ void add_options(Command& command, DecSettings& s) {
                     "  temper operators in.vtu -o operators --format npz --json\n"
                     "  temper operators in.vtu -o operators --coefficient 0=2.5\n"
                     "  temper optimize in.vtu -o out.vtu\n"
-                    "  temper operators out.vtu -o model --layers layers.csv --format disv,tough\n",
+                    "  temper operators out.vtu -o model --layers layers.csv --format disv,tough\n"
+                    "  temper operators out.vtu -o model --layers layers.csv --format disv --cells triangles\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
@@ -98,8 +110,12 @@ std::vector<io::DecFormat> parse_formats(std::string_view list) {
 void check_layers(const Command& command, const DecSettings& s, const std::vector<io::DecFormat>& formats) {
   const bool wanted = std::ranges::any_of(formats, [](io::DecFormat format) { return io::needs_columns(format); });
   if (wanted && s.layers.empty()) refuse_usage("operators", "--format: disv, disu, tough and uge need --layers");
-  if (s.layers.empty() && command.was_given("--pinch-out"))
-    print_warnings(std::vector<std::string>{"--pinch-out has no effect without --layers"});
+  if (!s.barriers.empty() && s.cells == CellsOf::vertices)
+    refuse_usage("operators", "--barriers: lines run through the centers of power cells. Next: add --cells triangles");
+  for (const char* const option : {"--barriers", "--cells", "--pinch-out"}) {
+    if (s.layers.empty() && command.was_given(option))
+      print_warnings(std::array{fmt::format("{} has no effect without --layers", option)});
+  }
 }
 
 /// Checks before the work that a folder can be made, and that no input is one of the files that will be replaced.
@@ -134,8 +150,28 @@ std::optional<Columns> make_columns(const DecSettings& s, const Input& input, co
                                     const PowerCells& cells) {
   if (s.layers.empty()) return {};
   expect_plane(input.mesh(), s.input, "--layers");
-  const Layers layers = or_fail(io::read_layers(s.layers, input.file, input.loaded));
-  auto made = columns(input.mesh(), complex, cells, layers, {s.pinch_out, input.names.get()});
+  const bool power = s.cells == CellsOf::vertices;
+  Layers layers = or_fail(io::read_layers(s.layers, input.file, input.loaded));
+  if (!power) layers = layers_of_triangles(input.mesh(), layers);
+  auto made =
+      columns(input.mesh(), complex,
+              power ? cell_polygons(input.mesh(), cells) : cell_polygons(input.mesh(), complex, CellsOf::triangles),
+              layers, {s.pinch_out, input.names.get()});
+  if (!made) throw as_failure(located(made.error(), s.input));
+  return *std::move(made);
+}
+
+/// None without --barriers.
+std::vector<io::Barrier> make_barriers(const DecSettings& s, const Input& input) {
+  std::vector<std::pair<std::string, double>> characteristics;
+  for (const std::string& entry : separated(s.barriers)) {
+    const std::size_t equals = entry.rfind('=');
+    const auto value =
+        equals == std::string::npos ? std::nullopt : parse_number(std::string_view(entry).substr(equals + 1));
+    if (!value) refuse_usage("operators", fmt::format("--barriers: expected NAME=NUMBER, found '{}'", entry));
+    characteristics.emplace_back(entry.substr(0, equals), *value);
+  }
+  auto made = io::barriers_of_lines(input.file, input.loaded, input.mesh(), characteristics);
   if (!made) throw as_failure(located(made.error(), s.input));
   return *std::move(made);
 }
@@ -178,11 +214,15 @@ void write(const Command& command, const DecSettings& s, Input& input, const std
   DecRecord record = {s.input, summary, cells, columns, {}};
   print_warnings(dec_warnings(record));
   warn_of_halves(input);
-  const std::vector<io::GroupCell> groups =
-      columns != nullptr ? io::cells_of_groups(input.file, input.loaded, input.mesh()) : std::vector<io::GroupCell>();
-  record.files =
-      or_fail(io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells,
-                            {formats, input.points, input.file.z(), columns, groups, input.names.get(), executor}));
+  const std::vector<io::GroupCell> groups = columns != nullptr
+                                                ? io::cells_of_groups(input.file, input.loaded, input.mesh(), s.cells)
+                                                : std::vector<io::GroupCell>();
+  const std::vector<io::Barrier> barriers = make_barriers(s, input);
+  io::DecWriteOptions options = {formats, input.points, input.file.z(), columns, groups};
+  if (!s.barriers.empty()) options.barriers = barriers;
+  options.names = input.names.get();
+  options.executor = executor;
+  record.files = or_fail(io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells, options));
   s.json ? print_data(dec_json(record)) : print(dec_text(record));
 }
 

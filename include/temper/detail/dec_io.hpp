@@ -3,13 +3,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "temper/dec.hpp"
+#include "temper/detail/cells.hpp"
 #include "temper/detail/columns.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/io.hpp"
@@ -29,8 +32,10 @@ enum class DecFormat {
         ///< edge_midpoints.mtx
   vtu,  ///< Files dual.vtu, the power cells as polygons; dual_edges.vtu, the dual edges as lines; columns.vtu, prisms
   // These need columns:
-  disv,  ///< Files mesh.disv, MODFLOW 6's discretization by vertices; mesh.disv.csv, the cells of groups
-  disu,  ///< Files mesh.disu, MODFLOW 6's discretization by connections; mesh.disu.csv
+  disv,  ///< Files mesh.disv, MODFLOW 6's discretization by vertices; mesh.disv.csv, the cells of groups;
+         ///< mesh.disv.hfb,
+         ///< the barriers
+  disu,  ///< Files mesh.disu, MODFLOW 6's discretization by connections; mesh.disu.csv; mesh.disu.hfb
   // These need columns, or tetrahedra, whose cells are the power cells of vertices:
   tough,  ///< Files MESH, elements and connections of TOUGH2, TOUGH3 and iTOUGH2; of columns MESH.csv, too
   uge,    ///< File mesh.uge, PFLOTRAN's explicit unstructured grid
@@ -42,18 +47,36 @@ enum class GroupKind {
   boundary,  ///< Lines on its boundary
 };
 
-/// A power cell that a named group touches.
+/// A cell that a named group touches.
 struct GroupCell {
   std::string name;  ///< Physical name, or the number of a tag without a name
   GroupKind kind = GroupKind::point;
-  VertexId vertex;    ///< Vertex of the cell
-  double length = 0;  ///< Length of the lines of the group in the cell [length]; 0 for points
+  std::uint32_t cell = 0;  ///< Cell as seen from above: the number of its vertex or triangle
+  double length = 0;       ///< Length of the lines of the group in the cell [length]; 0 for points
 };
 
-/// The cells of all marked points and lines, by kind, tag and vertex. A cell is once for each name and kind, so lengths
-/// of a group add up to the length of its lines. Lines that only list the edges of the mesh are left out. Precondition:
-/// all edges of the mesh are regular, as in columns().
-[[nodiscard]] std::vector<GroupCell> cells_of_groups(const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh);
+/// The cells of all marked points and lines, by kind, tag and cell. A cell is once for each name and kind, so lengths
+/// of a group add up to the length of its lines. A point lies in one power cell, but in all triangles around it. A line
+/// between two triangles lies half in each. Lines that only list the edges of the mesh are left out. Precondition for
+/// power cells: all edges of the mesh are regular, as in columns().
+[[nodiscard]] std::vector<GroupCell> cells_of_groups(const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
+                                                     CellsOf of = CellsOf::vertices);
+
+/// A barrier to flow on the common face of two cells, such as a piece of a fault.
+struct Barrier {
+  std::string name;                     ///< Name for comments, such as of the fault; may be empty
+  std::uint32_t first = 0, second = 0;  ///< Cells as seen from above: the numbers of vertices or triangles
+  /// Hydraulic characteristic: the conductivity of the barrier over its width [1/time]. If it is negative, its absolute
+  /// value is a factor on the conductance between the two cells.
+  double characteristic = 0;
+};
+
+/// The barriers on the edges of tagged lines, each between the triangles on its two sides, in the order of the names.
+/// `characteristics`: those of the lines by name or tag. Edges on the boundary of the domain have no barrier. Errors:
+/// no inner line has the name or tag; a value that is not finite.
+[[nodiscard]] Expected<std::vector<Barrier>> barriers_of_lines(
+    const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
+    std::span<const std::pair<std::string, double>> characteristics);
 
 struct DecWriteOptions {
   std::vector<DecFormat> formats = {DecFormat::npz, DecFormat::mtx, DecFormat::vtu};
@@ -62,6 +85,9 @@ struct DecWriteOptions {
   const Columns* columns = nullptr;          ///< Columns to write; null: none
   /// Cells of groups, for the tables beside the columns; absent: no tables
   std::optional<std::span<const GroupCell>> groups = {};
+  /// Barriers, for MODFLOW's HFB package beside the columns; each is in all layers in which both cells are active.
+  /// Absent: no file
+  std::optional<std::span<const Barrier>> barriers = {};
   const InputNames* names = nullptr;  ///< Numbers of vertices for the user, for errors
   Executor* executor = nullptr;       ///< Threads that compress; the bytes written do not depend on them
 };
@@ -78,7 +104,8 @@ enum class DecKind { triangles, columns, tetrahedra };
 /// Writes the operators into a folder, which is created if it does not exist. Every file is first a temporary file.
 /// When all are complete, they are renamed: an error leaves everything unchanged. Returns the paths of the files.
 /// Errors: formats that need columns, without columns; cells with several polygons or none, which DISV does not allow;
-/// more cells than TOUGH has names for. Precondition: `complex`, `cells` and columns belong to the mesh.
+/// a barrier between cells without a common face; more cells than TOUGH has names for. Precondition: `complex`, `cells`
+/// and columns belong to the mesh.
 [[nodiscard]] Expected<std::vector<std::string>> write_dec(const std::string& folder, const Mesh& mesh,
                                                            const DecComplex& complex, const PowerCells& cells,
                                                            const DecWriteOptions& options = {});

@@ -1,4 +1,4 @@
-// The cells of named groups, as a table beside the columns of MODFLOW and TOUGH: wells, rivers and boundaries by name.
+// The cells of named groups, as a table next to the columns of MODFLOW and TOUGH: wells, rivers and boundaries by name.
 #include <map>
 #include <tuple>
 #include <utility>
@@ -61,18 +61,57 @@ std::string csv_field(const std::string& value) {
 
 constexpr std::string_view kKinds[] = {"point", "line", "boundary"};
 
+/// The lengths of groups in cells: of points 0.
+class GroupLengths {
+ public:
+  GroupLengths(const Mesh& mesh, CellsOf of) : mesh_(mesh), of_(of) {}
+
+  void add_point(std::int32_t tag, VertexId v) {
+    if (of_ == CellsOf::vertices) return add(GroupKind::point, tag, owner_of(mesh_, v).index, 0);
+    for (const HalfedgeId h : mesh_.star(v)) add(GroupKind::point, tag, Mesh::triangle(h).index, 0);
+  }
+  void add_line(std::int32_t tag, HalfedgeId h) {
+    const GroupKind kind = mesh_.is_boundary(h) ? GroupKind::boundary : GroupKind::line;
+    const VertexId a = mesh_.origin(h), b = mesh_.target(h);
+    if (of_ == CellsOf::vertices)
+      return for_each_cell(mesh_, a, b, [&](VertexId v, double part) { add(kind, tag, v.index, part); });
+    const double whole = length(mesh_.position(b) - mesh_.position(a));
+    add(kind, tag, Mesh::triangle(h).index, mesh_.is_boundary(h) ? whole : whole / 2);
+    if (!mesh_.is_boundary(h)) add(kind, tag, Mesh::triangle(mesh_.twin(h)).index, whole / 2);
+  }
+  /// In the order of kind, tag and cell, for each of the names of the tag.
+  [[nodiscard]] std::vector<GroupCell> named(const std::vector<PhysicalName>& all) const {
+    std::multimap<std::pair<int, std::int32_t>, std::string_view> names;  // of a dimension and tag
+    for (const PhysicalName& n : all) names.emplace(std::pair(n.dimension, n.tag), n.name);
+    std::vector<GroupCell> cells;
+    for (const auto& [key, part] : lengths_) {
+      const auto [kind, tag, cell] = key;
+      const auto [first, last] = names.equal_range({kind == GroupKind::point ? 0 : 1, tag});
+      if (first == last) cells.push_back({text(tag), kind, cell, part});
+      for (auto name = first; name != last; ++name) cells.push_back({std::string(name->second), kind, cell, part});
+    }
+    return cells;
+  }
+
+ private:
+  void add(GroupKind kind, std::int32_t tag, std::uint32_t cell, double part) { lengths_[{kind, tag, cell}] += part; }
+
+  const Mesh& mesh_;
+  CellsOf of_;
+  std::map<std::tuple<GroupKind, std::int32_t, std::uint32_t>, double> lengths_;
+};
+
 }  // namespace
 
-std::vector<GroupCell> cells_of_groups(const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh) {
-  std::map<std::tuple<GroupKind, std::int32_t, VertexId>, double> lengths;
+std::vector<GroupCell> cells_of_groups(const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh, CellsOf of) {
+  GroupLengths lengths(mesh, of);
   const auto vertex = [&](std::int32_t p) {
     const std::int32_t v = loaded.vertex_of_point[static_cast<std::size_t>(p)];
     return v < 0 ? VertexId() : VertexId(static_cast<std::size_t>(v));
   };
   for (std::size_t i = 0; i < file.marked_points.size(); ++i) {
     const VertexId v = vertex(file.marked_points[i]);
-    if (v.valid() && file.marked_points.tags[i] != 0)
-      lengths[{GroupKind::point, file.marked_points.tags[i], owner_of(mesh, v)}] = 0;
+    if (v.valid() && file.marked_points.tags[i] != 0) lengths.add_point(file.marked_points.tags[i], v);
   }
   std::size_t in_mesh = 0;
   for (std::size_t i = 0; i < file.lines.size(); ++i) {
@@ -82,20 +121,9 @@ std::vector<GroupCell> cells_of_groups(const MeshFile& file, const LoadedMesh& l
     ++in_mesh;
     HalfedgeId h = mesh.find_halfedge(a, b);
     if (!h.valid()) h = mesh.find_halfedge(b, a);
-    if (lists_edges || !h.valid()) continue;
-    const GroupKind kind = mesh.is_boundary(h) ? GroupKind::boundary : GroupKind::line;
-    for_each_cell(mesh, a, b, [&](VertexId v, double part) { lengths[{kind, file.lines.tags[i], v}] += part; });
+    if (!lists_edges && h.valid()) lengths.add_line(file.lines.tags[i], h);
   }
-  std::multimap<std::pair<int, std::int32_t>, std::string_view> names;  // of a dimension and tag
-  for (const PhysicalName& n : file.names) names.emplace(std::pair(n.dimension, n.tag), n.name);
-  std::vector<GroupCell> cells;
-  for (const auto& [key, part] : lengths) {
-    const auto [kind, tag, v] = key;
-    const auto [first, last] = names.equal_range({kind == GroupKind::point ? 0 : 1, tag});
-    if (first == last) cells.push_back({text(tag), kind, v, part});
-    for (auto name = first; name != last; ++name) cells.push_back({std::string(name->second), kind, v, part});
-  }
-  return cells;
+  return lengths.named(file.names);
 }
 
 void write_groups(const DecJob& job, std::string_view file, const std::function<std::string(std::size_t)>& number) {
@@ -104,9 +132,9 @@ void write_groups(const DecJob& job, std::string_view file, const std::function<
   Output& out = job.open(file);
   out.put("name,kind,layer,cell,length,x,y\n");
   for (const GroupCell& group : *job.options.groups) {
-    const Vec2 at = job.mesh.position(group.vertex);
+    const Vec2 at = c.plan.centers[group.cell];
     for (std::size_t layer = 0; layer < c.n_layers; ++layer) {
-      const std::size_t cell = c.cell(group.vertex, layer);
+      const std::size_t cell = c.cell(group.cell, layer);
       if (!c.is_active(cell)) continue;
       out.put(csv_field(group.name), ',', kKinds[static_cast<std::size_t>(group.kind)], ',', layer + 1, ',',
               number(cell), ',');

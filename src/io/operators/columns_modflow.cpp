@@ -1,95 +1,25 @@
 // Discretizations of MODFLOW 6. From DISV it computes connections itself, by the common corners of cells. DISU has
 // explicit connections. (Langevin et al.: Documentation for the MODFLOW 6 groundwater flow model, USGS Techniques and
 // Methods 6-A55; its input guide, mf6io.)
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
+#include <optional>
 
 #include "io/operators/dec_files.hpp"
 
 namespace temper::io {
 namespace {
 
-// Coinciding corners differ by the rounding in different cells. Relative to a cell's size, and to its coordinates: some
-// units in the last place.
-constexpr double kSameCorner = 1e-9, kRounding = 0x1p-48;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Corners of cells, each once, and for each vertex its polygon, clockwise for MODFLOW.
-struct SharedCorners {
-  std::vector<Vec2> corners;
-  std::vector<std::vector<std::uint32_t>> polygons;
-};
-
-/// Numbers corners in their order; a corner near an earlier one is merged with it.
-class CornerNumbers {
- public:
-  /// `reach`: an upper bound of `near` in all calls of add().
-  explicit CornerNumbers(double reach) : step_(4 * reach) {}
-  std::uint32_t add(Vec2 at, double near) {
-    const auto x = square(at.x), y = square(at.y);
-    for (std::int64_t i = x - 1; i <= x + 1; ++i) {
-      for (std::int64_t j = y - 1; j <= y + 1; ++j) {
-        const auto [first, last] = squares_.equal_range(key(i, j));
-        for (auto known = first; known != last; ++known) {
-          if (length(corners[known->second] - at) <= near) return known->second;
-        }
-      }
-    }
-    const auto added = static_cast<std::uint32_t>(corners.size());
-    squares_.emplace(key(x, y), added);
-    corners.push_back(at);
-    return added;
-  }
-  std::vector<Vec2> corners;
-
- private:
-  [[nodiscard]] std::int64_t square(double x) const { return static_cast<std::int64_t>(std::floor(x / step_)); }
-  /// Different squares may have one key: distances decide.
-  [[nodiscard]] static std::uint64_t key(std::int64_t i, std::int64_t j) {
-    return static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(j);
-  }
-  double step_;
-  std::unordered_multimap<std::uint64_t, std::uint32_t> squares_;
-};
-
-double reach_of(const PowerCells& cells, std::size_t polygon) {
-  const auto first = cells.starts[polygon], last = cells.starts[polygon + 1];
-  double size = 0, far = 0;
-  for (std::size_t i = first; i < last; ++i) {
-    size = std::max(size, length(cells.corners[i] - cells.corners[first]));
-    far = std::max(far, length(cells.corners[i]));
-  }
-  return std::max(kSameCorner * size, kRounding * far);
-}
-
-SharedCorners share_corners(const PowerCells& cells, std::size_t n_vertices) {
-  double reach = 0;
-  for (std::size_t p = 0; p < cells.n_polygons(); ++p) reach = std::max(reach, reach_of(cells, p));
-  CornerNumbers numbers(reach);
-  SharedCorners shared;
-  shared.polygons.resize(n_vertices);
-  for (std::size_t p = 0; p < cells.n_polygons(); ++p) {
-    const double near = reach_of(cells, p);
-    auto& polygon = shared.polygons[cells.vertices[p].index];
-    for (std::size_t i = cells.starts[p + 1]; i-- > cells.starts[p];) {
-      const std::uint32_t corner = numbers.add(cells.corners[i], near);
-      if (polygon.empty() || polygon.back() != corner) polygon.push_back(corner);
-    }
-    while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
-  }
-  shared.corners = std::move(numbers.corners);
-  return shared;
-}
-
-/// The first vertex whose power cell is not one polygon.
-std::optional<VertexId> not_one_polygon(const PowerCells& cells) {
-  IdVector<VertexId, std::size_t> counts(cells.areas.size(), 0);
-  for (const VertexId v : cells.vertices) ++counts[v];
-  for (std::size_t v = 0; v < counts.size(); ++v) {
-    if (counts[VertexId(v)] != 1) return VertexId(v);
-  }
-  return {};
+/// The first cell that is not one polygon.
+std::optional<std::size_t> not_one_polygon(const CellPolygons& plan) {
+  std::vector<std::size_t> counts(plan.n_cells(), 0);
+  for (const std::uint32_t cell : plan.cells) ++counts[cell];
+  const auto found = std::ranges::find_if(counts, [](std::size_t n) { return n != 1; });
+  if (found == counts.end()) return {};
+  return static_cast<std::size_t>(found - counts.begin());
 }
 
 /// An array of the file, ten numbers per line.
@@ -107,21 +37,21 @@ void put_array(Output& out, std::string_view name, std::size_t n, F value) {
   put_array(out, n, value);
 }
 
-void put_vertices(Output& out, const SharedCorners& shared) {
+void put_vertices(Output& out, const CellPolygons& plan) {
   out.put("BEGIN VERTICES\n");
-  for (std::size_t i = 0; i < shared.corners.size(); ++i)
-    out.put("  ", i + 1, ' ', shared.corners[i].x, ' ', shared.corners[i].y, '\n');
+  for (std::size_t i = 0; i < plan.points.size(); ++i)
+    out.put("  ", i + 1, ' ', plan.points[i].x, ' ', plan.points[i].y, '\n');
   out.put("END VERTICES\n");
 }
 
-/// One row for each of n cells, of all layers or of one.
-void put_cells(Output& out, const Mesh& mesh, const Columns& c, const SharedCorners& shared, std::size_t n) {
+/// One row for each of n cells, of all layers or of one. MODFLOW has corners clockwise.
+void put_cells(Output& out, const Columns& c, std::size_t n) {
   out.put("BEGIN CELL2D\n");
   for (std::size_t cell = 0; cell < n; ++cell) {
-    const VertexId v = c.vertex(cell);
-    const auto& polygon = shared.polygons[v.index];
-    out.put("  ", cell + 1, ' ', mesh.position(v).x, ' ', mesh.position(v).y, ' ', polygon.size());
-    for (const std::uint32_t corner : polygon) out.put(' ', corner + 1);
+    const auto polygon = c.plan.polygon(c.column(cell));  // each cell has one
+    const Vec2 center = c.plan.centers[c.column(cell)];
+    out.put("  ", cell + 1, ' ', center.x, ' ', center.y, ' ', polygon.size());
+    for (std::size_t i = polygon.size(); i-- > 0;) out.put(' ', polygon[i] + 1);
     out.put('\n');
   }
   out.put("END CELL2D\n");
@@ -166,7 +96,7 @@ void put_connection_array(Output& out, std::string_view name, const Columns& c, 
   });
 }
 
-void put_connections(Output& out, const Mesh& mesh, const Columns& c, const ConnectionRows& rows) {
+void put_connections(Output& out, const Columns& c, const ConnectionRows& rows) {
   out.put("BEGIN CONNECTIONDATA\n");
   put_array(out, "IAC", c.n_cells(), [&](std::size_t i) { return rows.starts[i + 1] - rows.starts[i]; });
   put_array(out, "JA", rows.cells.size(), [&](std::size_t i) { return rows.cells[i] + 1; });
@@ -179,7 +109,7 @@ void put_connections(Output& out, const Mesh& mesh, const Columns& c, const Conn
                        [](std::size_t, const ColumnConnection& k) { return k.is_vertical ? k.area : k.width; });
   put_connection_array(out, "ANGLDEGX", c, rows, [&](std::size_t row, const ColumnConnection& k) {
     if (k.is_vertical) return 0.0;
-    const Vec2 along = mesh.position(c.vertex(row == k.first ? k.second : k.first)) - mesh.position(c.vertex(row));
+    const Vec2 along = c.plan.centers[c.column(row == k.first ? k.second : k.first)] - c.plan.centers[c.column(row)];
     const double angle = kDegrees * std::atan2(along.y, along.x);
     return angle < 0 ? angle + 360 : angle;
   });
@@ -188,55 +118,64 @@ void put_connections(Output& out, const Mesh& mesh, const Columns& c, const Conn
 
 constexpr std::string_view kOptions = "BEGIN OPTIONS\nEND OPTIONS\nBEGIN DIMENSIONS\n";
 
+/// The first line of a file: what its cells are, with a sentence for each kind of them.
+void put_title(Output& out, const Columns& c, std::string_view of_vertices, std::string_view of_triangles) {
+  const bool power = c.plan.of == CellsOf::vertices;
+  out.put(power ? "# Power cells under layers. " : "# Triangles under layers, with orthocenters as centers. ",
+          power ? of_vertices : of_triangles, '\n');
+}
+
 }  // namespace
 
 void write_columns_disv(const DecJob& job) {
   const Columns& c = *job.options.columns;
-  if (const auto v = not_one_polygon(job.cells)) {
+  if (const auto cell = not_one_polygon(c.plan)) {
     const InputNames counting;
     const InputNames& names = job.options.names != nullptr ? *job.options.names : counting;
-    fail(ErrorCode::unsupported, "", "the power cell of ", names.point(v->index),
+    fail(ErrorCode::unsupported, "", "the power cell of ", names.point(*cell),
          " in the domain is not one polygon, which DISV needs. Next: write DISU");
   }
-  const SharedCorners shared = share_corners(job.cells, c.n_vertices);
+  const std::size_t n = c.n_columns();
   Output& out = job.open("mesh.disv");
-  out.put("# Power cells under layers. Cell n is that of the n-th vertex.\n", kOptions);
-  out.put("  NLAY ", c.n_layers, "\n  NCPL ", c.n_vertices, "\n  NVERT ", shared.corners.size(),
+  put_title(out, c, "Cell n is that of the n-th vertex.", "Cell n is the n-th triangle.");
+  out.put(kOptions, "  NLAY ", c.n_layers, "\n  NCPL ", n, "\n  NVERT ", c.plan.points.size(),
           "\nEND DIMENSIONS\nBEGIN GRIDDATA\n");
-  put_array(out, "TOP", c.n_vertices, [&](std::size_t i) { return c.tops[i]; });
+  put_array(out, "TOP", n, [&](std::size_t i) { return c.tops[i]; });
   out.put("  BOTM LAYERED\n");
   for (std::size_t layer = 0; layer < c.n_layers; ++layer)
-    put_array(out, c.n_vertices, [&](std::size_t i) { return c.bottoms[layer * c.n_vertices + i]; });
+    put_array(out, n, [&](std::size_t i) { return c.bottoms[c.cell(i, layer)]; });
   out.put("  IDOMAIN LAYERED\n");
   for (std::size_t layer = 0; layer < c.n_layers; ++layer)
-    put_array(out, c.n_vertices, [&](std::size_t i) { return idomain(c.states[layer * c.n_vertices + i]); });
+    put_array(out, n, [&](std::size_t i) { return idomain(c.states[c.cell(i, layer)]); });
   out.put("END GRIDDATA\n");
-  put_vertices(out, shared);
-  put_cells(out, job.mesh, c, shared, c.n_vertices);
-  write_groups(job, "mesh.disv.csv", [&c](std::size_t cell) { return text(c.vertex(cell).index + 1); });
+  put_vertices(out, c.plan);
+  put_cells(out, c, n);
+  write_groups(job, "mesh.disv.csv", [&c](std::size_t cell) { return text(c.column(cell) + 1); });
+  write_barriers(job, "mesh.disv.hfb",
+                 [&c](std::size_t cell) { return text(c.layer(cell) + 1, " ", c.column(cell) + 1); });
 }
 
 void write_columns_disu(const DecJob& job) {
   const Columns& c = *job.options.columns;
-  const bool has_polygons = !not_one_polygon(job.cells);
-  const SharedCorners shared = has_polygons ? share_corners(job.cells, c.n_vertices) : SharedCorners();
+  const bool has_polygons = !not_one_polygon(c.plan);
   const ConnectionRows rows(c);
   Output& out = job.open("mesh.disu");
-  out.put("# Power cells under layers. Node n of a layer's is that of the n-th vertex; layers follow each other.\n",
-          kOptions);
-  out.put("  NODES ", c.n_cells(), "\n  NJA ", rows.cells.size(), '\n');
-  if (has_polygons) out.put("  NVERT ", shared.corners.size(), '\n');
+  put_title(out, c, "Node n of a layer's is that of the n-th vertex; layers follow each other.",
+            "Node n of a layer's is the n-th triangle; layers follow each other.");
+  out.put(kOptions, "  NODES ", c.n_cells(), "\n  NJA ", rows.cells.size(), '\n');
+  if (has_polygons) out.put("  NVERT ", c.plan.points.size(), '\n');
   out.put("END DIMENSIONS\nBEGIN GRIDDATA\n");
   put_array(out, "TOP", c.n_cells(), [&](std::size_t i) { return c.tops[i]; });
   put_array(out, "BOT", c.n_cells(), [&](std::size_t i) { return c.bottoms[i]; });
-  put_array(out, "AREA", c.n_cells(), [&](std::size_t i) { return c.areas[c.vertex(i)]; });
+  put_array(out, "AREA", c.n_cells(), [&](std::size_t i) { return c.plan.areas[c.column(i)]; });
   put_array(out, "IDOMAIN", c.n_cells(), [&](std::size_t i) { return c.is_active(i) ? 1 : 0; });
   out.put("END GRIDDATA\n");
-  put_connections(out, job.mesh, c, rows);
+  put_connections(out, c, rows);
   write_groups(job, "mesh.disu.csv", [](std::size_t cell) { return text(cell + 1); });
+  write_barriers(job, "mesh.disu.hfb", [](std::size_t cell) { return text(cell + 1); });
   if (!has_polygons) return;
-  put_vertices(out, shared);
-  put_cells(out, job.mesh, c, shared, c.n_cells());
+  put_vertices(out, c.plan);
+  put_cells(out, c, c.n_cells());
 }
 
 }  // namespace temper::io

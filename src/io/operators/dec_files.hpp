@@ -87,5 +87,7 @@ void write_columns_disv(const DecJob& job);
 void write_columns_disu(const DecJob& job);
 /// The table of the cells of groups, with the number that the format has for each cell.
 void write_groups(const DecJob& job, std::string_view file, const std::function<std::string(std::size_t)>& number);
+/// The barriers, if there are any; `cell` is how the format writes a cell.
+void write_barriers(const DecJob& job, std::string_view file, const std::function<std::string(std::size_t)>& cell);
 
 }  // namespace temper::io

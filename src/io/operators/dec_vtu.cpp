@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -273,33 +274,30 @@ void write_dec_vtu(const TetDecJob& job) {
        dual_reals("star2", n, [&c](std::size_t i) { return c.star2[tets::FaceId(i)]; })});
 }
 
-// columns.vtu: each active cell is a prism over its power cell, a VTK polyhedron; a cell of several polygons has one
-// prism over each. Prisms share no points: their tops and bottoms are flat, at different heights than their neighbors'.
+// columns.vtu: each active cell is a prism over its polygon, a VTK polyhedron; a cell of several polygons has one prism
+// over each. Prisms share no points: their tops and bottoms are flat, at different heights than their neighbors'.
 
 namespace {
 
 /// All prisms, in the order of polygons and, below each, of layers.
 struct Prisms {
   std::vector<std::size_t> cells;                        // of the columns
-  std::vector<std::size_t> polygons;                     // of the power cells
+  std::vector<std::size_t> polygons;                     // of the columns as seen from above
   std::vector<double> points;                            // three numbers each: of a prism the bottom, then the top
   std::vector<std::int64_t> ends, faces, ends_of_faces;  // as VTK has them
 
-  void add(const PowerCells& power_cells, std::size_t polygon, const Columns& columns, std::size_t cell);
+  void add(std::size_t polygon, std::span<const Vec2> corners, const Columns& columns, std::size_t cell);
   [[nodiscard]] std::size_t size() const { return cells.size(); }
 };
 
-void Prisms::add(const PowerCells& power_cells, std::size_t polygon, const Columns& columns, std::size_t cell) {
-  const std::size_t first = power_cells.starts[polygon], n = power_cells.starts[polygon + 1] - first;
+void Prisms::add(std::size_t polygon, std::span<const Vec2> corners, const Columns& columns, std::size_t cell) {
+  const std::size_t n = corners.size();
   const auto bottom = [base = static_cast<std::int64_t>(points.size() / 3), n](std::size_t i) {
     return base + static_cast<std::int64_t>(i % n);
   };
   const auto top = [bottom, n](std::size_t i) { return bottom(i) + static_cast<std::int64_t>(n); };
   for (const double z : {columns.bottoms[cell], columns.tops[cell]}) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec2 corner = power_cells.corners[first + i];
-      points.insert(points.end(), {corner.x, corner.y, z});
-    }
+    for (const Vec2 corner : corners) points.insert(points.end(), {corner.x, corner.y, z});
   }
   // Seen from outside, corners of faces are counter-clockwise.
   faces.push_back(static_cast<std::int64_t>(n + 2));
@@ -314,15 +312,30 @@ void Prisms::add(const PowerCells& power_cells, std::size_t polygon, const Colum
   ends_of_faces.push_back(static_cast<std::int64_t>(faces.size()));
 }
 
+/// The corners of a polygon: of a power cell with the rounding of this cell, as in dual.vtu.
+std::vector<Vec2> corners_of(const DecJob& job, std::size_t polygon) {
+  const CellPolygons& plan = job.options.columns->plan;
+  if (plan.of == CellsOf::vertices) {
+    const auto at = [&](std::size_t p) {
+      return job.cells.corners.begin() + static_cast<std::ptrdiff_t>(job.cells.starts[p]);
+    };
+    return {at(polygon), at(polygon + 1)};
+  }
+  std::vector<Vec2> corners;
+  for (const std::uint32_t corner : plan.polygon(polygon)) corners.push_back(plan.points[corner]);
+  return corners;
+}
+
 }  // namespace
 
 void write_columns_vtu(const DecJob& job) {
   const Columns& c = *job.options.columns;
   Prisms prisms;
-  for (std::size_t p = 0; p < job.cells.n_polygons(); ++p) {
+  for (std::size_t p = 0; p < c.plan.n_polygons(); ++p) {
+    const std::vector<Vec2> corners = corners_of(job, p);
     for (std::size_t layer = 0; layer < c.n_layers; ++layer) {
-      const std::size_t cell = c.cell(job.cells.vertices[p], layer);
-      if (c.is_active(cell)) prisms.add(job.cells, p, c, cell);
+      const std::size_t cell = c.cell(c.plan.cells[p], layer);
+      if (c.is_active(cell)) prisms.add(p, corners, c, cell);
     }
   }
   const std::size_t n = prisms.size(), n_points = prisms.points.size() / 3;
@@ -334,10 +347,11 @@ void write_columns_vtu(const DecJob& job) {
                            long_integers("offsets", prisms.ends), one_type(n, kVtkPolyhedron),
                            long_integers("faces", prisms.faces), long_integers("faceoffsets", prisms.ends_of_faces)},
                           {},
-                          {dual_integers("vertex", n, [&](std::size_t i) { return c.vertex(prisms.cells[i]).index; }),
+                          {dual_integers(c.plan.of == CellsOf::vertices ? "vertex" : "triangle", n,
+                                         [&](std::size_t i) { return c.column(prisms.cells[i]); }),
                            dual_integers("layer", n, [&](std::size_t i) { return c.layer(prisms.cells[i]) + 1; }),
                            dual_reals("thickness", n, thickness), dual_reals("volume", n, [&](std::size_t i) {
-                             return job.cells.polygon_areas[prisms.polygons[i]] * thickness(i);
+                             return c.plan.polygon_areas[prisms.polygons[i]] * thickness(i);
                            })}};
   write_piece(job.open("columns.vtu"), piece, Encoding::base64, job.options.executor);
 }

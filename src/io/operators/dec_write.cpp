@@ -112,7 +112,8 @@ std::span<const std::string_view> dec_file_names(DecFormat format, DecKind kind)
                                               "face_orthocenters.mtx"};
   static constexpr std::string_view kVtu[] = {"dual.vtu", "dual_edges.vtu", "columns.vtu"};
   const bool tetrahedra = kind == DecKind::tetrahedra;
-  static constexpr std::string_view kDisv[] = {"mesh.disv", "mesh.disv.csv"}, kDisu[] = {"mesh.disu", "mesh.disu.csv"},
+  static constexpr std::string_view kDisv[] = {"mesh.disv", "mesh.disv.csv", "mesh.disv.hfb"},
+                                    kDisu[] = {"mesh.disu", "mesh.disu.csv", "mesh.disu.hfb"},
                                     kTough[] = {"MESH", "MESH.csv"}, kUge[] = {"mesh.uge"};
   switch (format) {
     case DecFormat::npz:

@@ -10,7 +10,7 @@ FiniteVolumes volumes_of(const DecJob& job) {
   result.n_numbers = c.n_cells();
   std::vector<std::size_t> index(c.n_cells());
   const auto center = [&](std::size_t cell) {
-    const Vec2 at = job.mesh.position(c.vertex(cell));
+    const Vec2 at = c.plan.centers[c.column(cell)];
     return Vec3{at.x, at.y, c.center(cell)};
   };
   for (std::size_t cell = 0; cell < c.n_cells(); ++cell) {

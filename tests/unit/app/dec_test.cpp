@@ -134,6 +134,33 @@ TEST_F(Dec, LayersMakeColumns) {
   EXPECT_EQ(temper({"operators", "a.mesh", "-o", "here", "--layers", "here/MESH", "--format", "tough"}).exit, 2);
 }
 
+TEST_F(Dec, TrianglesMayBeTheCellsWithBarriersOnTheirEdges) {
+  write("a.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 7 \"fault\"\n$EndPhysicalNames\n$Nodes\n4\n"
+        "1 0 0 0\n2 1 0 0\n3 0.5 0.9 0\n4 1.5 0.8 0\n$EndNodes\n$Elements\n3\n"
+        "1 1 2 7 7 2 3\n2 2 2 0 1 1 2 3\n3 2 2 0 1 2 4 3\n$EndElements\n");
+  write("l.csv", "vertex,top,bottom 1,bottom 2\n*,3,2,1\n");
+  const std::vector<std::string> all = {"operators", "a.msh",    "-o",   "out",   "--layers",
+                                        "l.csv",     "--format", "disv", "--json"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), all.begin(), all.end());
+    return more;
+  };
+  const auto json = nlohmann::json::parse(temper_ok(with({"--cells", "triangles", "--barriers", "fault=1e-6"})).out);
+  EXPECT_EQ(json.at("files"), nlohmann::json({"out/mesh.disv", "out/mesh.disv.csv", "out/mesh.disv.hfb"}));
+  EXPECT_EQ(json.at("columns").at("cells"), 4);
+  EXPECT_TRUE(contains(read("out/mesh.disv"), "NCPL 2\n  NVERT 4"));
+  EXPECT_TRUE(contains(read("out/mesh.disv.hfb"), "MAXHFB 2\n"));
+  EXPECT_TRUE(contains(read("out/mesh.disv.hfb"), "# fault\n  1 1 1 2 1e-06\n  2 1 2 2 1e-06\nEND PERIOD\n") ||
+              contains(read("out/mesh.disv.hfb"), "# fault\n  1 2 1 1 1e-06\n  2 2 2 1 1e-06\nEND PERIOD\n"))
+      << read("out/mesh.disv.hfb");
+  expect_failure(with({"--barriers", "fault=1"}), 2, "--barriers: lines run through the centers of power cells");
+  expect_failure(with({"--cells", "triangles", "--barriers", "fault"}), 2,
+                 "--barriers: expected NAME=NUMBER, found 'fault'");
+  expect_failure(with({"--cells", "triangles", "--barriers", "river=1"}), 1,
+                 "barrier 'river': no line inside the domain has this name or tag");
+}
+
 TEST_F(Dec, BadInputWritesNothing) {
   make_input();
   write("file", "");

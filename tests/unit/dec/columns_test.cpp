@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -22,7 +23,12 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Expected<Columns> columns_of(const Mesh& mesh, const Layers& layers, const ColumnOptions& options = {}) {
   const DecComplex complex = dec_operators(mesh);
-  return columns(mesh, complex, power_cells(mesh, complex), layers, options);
+  return columns(mesh, complex, cell_polygons(mesh, complex), layers, options);
+}
+Expected<Columns> columns_of_triangles(const Mesh& mesh, const Layers& at_vertices, const ColumnOptions& options = {}) {
+  const DecComplex complex = dec_operators(mesh);
+  const Layers layers = layers_of_triangles(mesh, at_vertices);
+  return columns(mesh, complex, cell_polygons(mesh, complex, CellsOf::triangles), layers, options);
 }
 
 /// The same surfaces everywhere.
@@ -96,11 +102,11 @@ TEST(Columns, ConnectionsAreEachOnceAscendingAndPositive) {
     EXPECT_LT(k.first, k.second);
     EXPECT_TRUE(c.is_active(k.first) && c.is_active(k.second));
     EXPECT_GT(std::min({k.first_distance, k.second_distance, k.area}), 0);
-    const VertexId a = c.vertex(k.first), b = c.vertex(k.second);
+    const VertexId a(c.column(k.first)), b(c.column(k.second));
     EXPECT_EQ(k.is_vertical, a == b);
     EXPECT_EQ(k.is_vertical, c.layer(k.first) != c.layer(k.second));
     if (k.is_vertical) {
-      EXPECT_EQ(k.area, c.areas[a]);
+      EXPECT_EQ(k.area, c.plan.areas[a.index]);
       EXPECT_NEAR(k.first_distance + k.second_distance, c.center(k.first) - c.center(k.second), 1e-12)
           << "what is pinched out is of no thickness";
     } else {
@@ -119,7 +125,7 @@ TEST(Columns, FacesCloseTheCellsOfInnerVertices) {
   IdVector<VertexId, Vec2> outward(mesh.n_vertices());
   IdVector<VertexId, double> areas(mesh.n_vertices(), 0.0);
   for (const ColumnConnection& k : made->connections) {
-    const VertexId a = made->vertex(k.first), b = made->vertex(k.second);
+    const VertexId a(made->column(k.first)), b(made->column(k.second));
     const Vec2 along = mesh.position(b) - mesh.position(a);
     const Vec2 normal = (k.area / length(along)) * along;
     outward[a] = outward[a] + normal;
@@ -130,7 +136,7 @@ TEST(Columns, FacesCloseTheCellsOfInnerVertices) {
   for (const VertexId v : mesh.vertices()) {
     if (mesh.is_boundary(v)) continue;
     EXPECT_LT(length(outward[v]), 1e-13) << v.index;
-    EXPECT_NEAR(areas[v], made->areas[v], 1e-13) << v.index;
+    EXPECT_NEAR(areas[v], made->plan.areas[v.index], 1e-13) << v.index;
   }
 }
 
@@ -141,7 +147,7 @@ TEST(Columns, WhatIsAbovePinchedOutLayersIsConnectedToWhatIsBelow) {
   const auto made = columns_of(mesh, layers);
   ASSERT_TRUE(made);
   const Columns& c = *made;
-  EXPECT_EQ(c.states[c.cell(VertexId(0), 1)], CellState::pinched_out);
+  EXPECT_EQ(c.states[c.cell(0, 1)], CellState::pinched_out);
   std::map<std::pair<std::uint32_t, std::uint32_t>, ColumnConnection> found;
   for (const ColumnConnection& k : c.connections) found[{k.first, k.second}] = k;
   ASSERT_TRUE(found.contains({0, 9})) << "across two layers";
@@ -175,11 +181,81 @@ TEST(Columns, NothingGoesThroughWhatIsInactive) {
   using enum CellState;
   EXPECT_EQ(c.states,
             (std::vector<CellState>{active, active, inactive, inactive, active, active, active, inactive, active}));
-  EXPECT_EQ(c.tops[c.cell(VertexId(2), 0)], 3) << "all heights are numbers";
-  EXPECT_EQ(c.bottoms[c.cell(VertexId(1), 2)], 2);
+  EXPECT_EQ(c.tops[c.cell(2, 0)], 3) << "all heights are numbers";
+  EXPECT_EQ(c.bottoms[c.cell(1, 2)], 2);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
   for (const ColumnConnection& k : c.connections) found.emplace_back(k.first, k.second);
   EXPECT_EQ(found, (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {1, 4}, {4, 5}, {5, 8}, {6, 8}}));
+}
+
+TEST(Columns, BelowTrianglesTheyHaveOrthocentersAsCentersAndEdgesAsFaces) {
+  const Mesh mesh = test::lattice({.n = 8});  // well-centered
+  const auto made = columns_of_triangles(mesh, flat(mesh, {3, 1, 0}));
+  ASSERT_TRUE(made) << made.error().what();
+  const Columns& c = *made;
+  ASSERT_EQ(c.n_columns(), mesh.n_triangles());
+  std::vector<Vec2> outward(c.n_columns());
+  std::vector<double> areas(c.n_columns(), 0.0);
+  std::size_t beside = 0;
+  for (const ColumnConnection& k : c.connections) {
+    const std::size_t a = c.column(k.first), b = c.column(k.second);
+    EXPECT_GT(std::min({k.first_distance, k.second_distance, k.area}), 0);
+    EXPECT_EQ(k.is_vertical, a == b);
+    if (k.is_vertical || c.layer(k.first) != 0) continue;
+    ++beside;
+    const Vec2 along = c.plan.centers[b] - c.plan.centers[a];
+    EXPECT_NEAR(k.first_distance + k.second_distance, length(along), 1e-12);
+    outward[a] = outward[a] + (k.width / length(along)) * along;
+    outward[b] = outward[b] - (k.width / length(along)) * along;
+    areas[a] += 0.5 * k.width * k.first_distance;
+    areas[b] += 0.5 * k.width * k.second_distance;
+  }
+  EXPECT_GT(beside, mesh.n_triangles());
+  for (const TriangleId t : mesh.triangles()) {
+    const bool inner =
+        std::ranges::none_of(std::array{0, 1, 2}, [&](int i) { return mesh.is_boundary(Mesh::halfedge(t, i)); });
+    if (!inner) continue;
+    EXPECT_LT(length(outward[t.index]), 1e-12) << t.index;
+    EXPECT_NEAR(areas[t.index], c.plan.areas[t.index], 1e-12) << t.index;
+  }
+}
+
+TEST(Columns, BelowTrianglesVolumesAreThoseBetweenSurfacesThatAreLinearOnThem) {
+  const Mesh mesh = test::lattice({.n = 6});
+  Layers layers = {1, {}, {}};
+  double volume = 0;  // of a plane over the domain: its height in the middle of each triangle, times the area
+  const auto top = [](Vec2 p) { return 5 + 0.3 * p.x - 0.7 * p.y; };
+  for (const VertexId v : mesh.vertices()) layers.surfaces.insert(layers.surfaces.end(), {top(mesh.position(v)), 0});
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [a, b, c] = mesh.points(t);
+    const Vec2 middle = (1.0 / 3) * (a.position() + b.position() + c.position());
+    volume += 0.5 * cross(b.position() - a.position(), c.position() - a.position()) * top(middle);
+  }
+  const auto made = columns_of_triangles(mesh, layers);
+  ASSERT_TRUE(made) << made.error().what();
+  EXPECT_NEAR(sum(made->volumes), volume, 1e-12 * volume);
+}
+
+TEST(Columns, BelowTrianglesALayerIsActiveIfItIsAtAllCorners) {
+  const Mesh mesh = test::mesh_of({{0, 0}, {1, -0.6}, {1, 0.6}, {2, 0}}, {{0, 1, 2}, {1, 3, 2}});
+  Layers layers = flat(mesh, {3, 2, 1});
+  layers.active = {1, 0, 1, 1, 1, 1, 1, 1};
+  const auto made = columns_of_triangles(mesh, layers);
+  ASSERT_TRUE(made) << made.error().what();
+  using enum CellState;
+  EXPECT_EQ(made->states, (std::vector<CellState>{active, active, inactive, active}));
+  layers.active.clear();
+  layers.surfaces[3 * 3 + 2] = kNone;  // of vertex 3 the lowest surface
+  EXPECT_EQ(columns_of_triangles(mesh, layers)->states, (std::vector<CellState>{active, active, active, inactive}));
+}
+
+TEST(Columns, BelowTrianglesAnOrthocenterBehindAnEdgeIsTold) {
+  const Mesh obtuse = test::mesh_of({{0, 0}, {1, -0.2}, {2, 0}, {1, 3}}, {{0, 1, 2}, {0, 2, 3}});
+  const auto made = columns_of_triangles(obtuse, flat(obtuse, {2, 1}));
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().what(),
+            "triangle 0: its orthocenter is not on its side of the edge to triangle 1, so that the edge is not between "
+            "the two centers. Next: temper optimize --for cell");
 }
 
 TEST(Columns, BadInputIsTold) {

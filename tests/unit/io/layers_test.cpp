@@ -24,18 +24,20 @@ class LayerFiles : public FileTest {
     const auto read = layers(text);
     EXPECT_EQ(read ? "nothing" : plain(read.error().what()), message) << text;
   }
-  [[nodiscard]] Expected<std::vector<std::string>> write(const Layers& layers,
-                                                         const std::vector<DecFormat>& formats) const {
+  [[nodiscard]] Expected<std::vector<std::string>> write(const Layers& layers, const std::vector<DecFormat>& formats,
+                                                         CellsOf of = CellsOf::vertices) const {
     const Mesh& mesh = loaded_->mesh;
     const DecComplex complex = dec_operators(mesh);
     const PowerCells cells = power_cells(mesh, complex);
-    const auto made = columns(mesh, complex, cells, layers);
+    const auto made = columns(mesh, complex, cell_polygons(mesh, complex, of), layers);
     if (!made) return made.error();
-    const std::vector<GroupCell> groups = cells_of_groups(file_, *loaded_, mesh);
-    return write_dec(path("out"), mesh, complex, cells, {.formats = formats, .columns = &*made, .groups = groups});
+    const std::vector<GroupCell> groups = cells_of_groups(file_, *loaded_, mesh, of);
+    return write_dec(path("out"), mesh, complex, cells,
+                     {.formats = formats, .columns = &*made, .groups = groups, .barriers = barriers_});
   }
   MeshFile file_;
   std::optional<LoadedMesh> loaded_;
+  std::vector<Barrier> barriers_;
 };
 
 TEST_F(LayerFiles, RowsGoToTheVerticesThatTheirNumbersName) {
@@ -116,7 +118,7 @@ TEST_F(LayerFiles, AVertexWithoutACellHasNoneAndDisvNoPlaceForIt) {
   const DecComplex complex = dec_operators(mesh);
   const PowerCells cells = power_cells(mesh, complex);
   ASSERT_EQ(cells.areas[VertexId(0)], 0);
-  const auto made = columns(mesh, complex, cells, {1, {1, 0, 1, 0, 1, 0}, {}});
+  const auto made = columns(mesh, complex, cell_polygons(mesh, cells), {1, {1, 0, 1, 0, 1, 0}, {}});
   ASSERT_TRUE(made) << made.error().what();
   EXPECT_EQ(made->states[0], CellState::inactive);
   const auto disv = write_dec(path("out"), mesh, complex, cells, {.formats = {DecFormat::disv}, .columns = &*made});
@@ -128,6 +130,81 @@ TEST_F(LayerFiles, AVertexWithoutACellHasNoneAndDisvNoPlaceForIt) {
   const std::string disu = slurp(path("out/mesh.disu"));
   EXPECT_NE(disu.find("  IDOMAIN\n    INTERNAL FACTOR 1\n      0 1 1\n"), std::string::npos) << disu;
   EXPECT_EQ(disu.find("VERTICES"), std::string::npos);
+}
+
+TEST_F(LayerFiles, TrianglesAreCellsOfDisvWithOrthocentersAndVerticesOfTheMesh) {
+  ASSERT_EQ(loaded_->mesh.n_triangles(), 2u);
+  const Layers layers = layers_of_triangles(loaded_->mesh, *this->layers("vertex,top,bottom\n*,2,1\n"));
+  const auto written = write(layers, {DecFormat::disv}, CellsOf::triangles);
+  ASSERT_TRUE(written) << written.error().what();
+  const std::string disv = slurp(path("out/mesh.disv"));
+  EXPECT_TRUE(
+      disv.starts_with("# Triangles under layers, with orthocenters as centers. Cell n is the n-th triangle.\n"));
+  EXPECT_NE(disv.find("  NLAY 1\n  NCPL 2\n  NVERT 4\n"), std::string::npos) << disv;
+  const std::size_t cells = disv.find("BEGIN CELL2D\n  1 ");
+  ASSERT_NE(cells, std::string::npos);
+  std::istringstream rows(disv.substr(cells + std::string_view("BEGIN CELL2D\n").size()));
+  std::size_t cell = 0, n = 0;
+  Vec2 center;
+  rows >> cell >> center.x >> center.y >> n;
+  EXPECT_EQ(center, dec_operators(loaded_->mesh).orthocenters[TriangleId(0)]);
+  EXPECT_EQ(n, 3u);
+}
+
+TEST_F(LayerFiles, BarriersHaveARowInEachLayerThatBothCellsAreActiveIn) {
+  barriers_ = {{"fault", 1, 0, 1e-6}, {"fault", 1, 2, 1e-6}, {"", 0, 2, -0.5}};
+  ASSERT_TRUE(write(*layers("vertex,top,bottom 1,bottom 2,active 1,active 2\n*,2,1,0,1,1\n1,,,,0,1\n"),
+                    {DecFormat::disv, DecFormat::disu}));
+  const std::string head =
+      "# Horizontal flow barriers: two cells, and the hydraulic characteristic of the barrier between them.\n"
+      "BEGIN OPTIONS\nEND OPTIONS\nBEGIN DIMENSIONS\n  MAXHFB 4\nEND DIMENSIONS\nBEGIN PERIOD 1\n";
+  EXPECT_EQ(slurp(path("out/mesh.disv.hfb")), head +
+                                                  "# fault\n  2 2 2 1 1e-06\n  1 2 1 3 1e-06\n  2 2 2 3 1e-06\n"
+                                                  "  2 1 2 3 -0.5\nEND PERIOD\n");
+  EXPECT_EQ(slurp(path("out/mesh.disu.hfb")),
+            head + "# fault\n  6 5 1e-06\n  2 3 1e-06\n  6 7 1e-06\n  5 7 -0.5\nEND PERIOD\n");
+}
+
+TEST_F(LayerFiles, ABarrierNeedsTwoNeighborsAndAFiniteNumber) {
+  const auto layers_given = *layers("vertex,top,bottom\n*,2,1\n");
+  const auto message = [&](const Barrier& barrier) {
+    barriers_ = {barrier};
+    const auto written = write(layers_given, {DecFormat::disv});
+    return written ? "nothing" : plain(written.error().what());
+  };
+  EXPECT_EQ(message({"fault", 0, 0, 1}),
+            "barrier 'fault': the cell of point 0 and the cell of point 0 have no common face; expected two neighbors");
+  EXPECT_EQ(message({"", 0, 1, HUGE_VAL}), "a barrier: expected a finite hydraulic characteristic, found inf");
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+TEST_F(LayerFiles, BarriersOfLinesAreBetweenTheTrianglesOnTheirTwoSides) {
+  MeshFile file = file_;
+  const Mesh& mesh = loaded_->mesh;
+  HalfedgeId inner;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_boundary(h)) inner = h;
+  }
+  const auto point = [&](VertexId v) {
+    for (std::size_t p = 0; p < file.points.size(); ++p) {
+      if (loaded_->vertex_of_point[p] == static_cast<std::int32_t>(v.index)) return static_cast<std::int32_t>(p);
+    }
+    return -1;
+  };
+  file.lines.add({point(mesh.origin(inner)), point(mesh.target(inner))}, 9);
+  file.names = {{1, 9, "fault"}};
+  const std::vector<std::pair<std::string, double>> by_name = {{"fault", 2}}, by_tag = {{"9", 2}},
+                                                    unknown = {{"river", 2}};
+  for (const auto& asked : {by_name, by_tag}) {
+    const auto made = barriers_of_lines(file, *loaded_, mesh, asked);
+    ASSERT_TRUE(made) << made.error().what();
+    ASSERT_EQ(made->size(), 1u);
+    EXPECT_EQ(std::min(made->front().first, made->front().second), 0u);
+    EXPECT_EQ(std::max(made->front().first, made->front().second), 1u);
+    EXPECT_EQ(made->front().characteristic, 2);
+  }
+  EXPECT_EQ(barriers_of_lines(file, *loaded_, mesh, unknown).error().what(),
+            "barrier 'river': no line inside the domain has this name or tag");
 }
 
 TEST_F(LayerFiles, ToughHasFixedColumnsAndAllDigitsThatTheyHold) {
