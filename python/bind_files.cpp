@@ -187,12 +187,14 @@ py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, con
 }
 
 py::object write_file(const std::string& path, const PyMesh& self, const std::string& format,
-                      const std::string& encoding, bool triangle_quality, const py::object& threads) {
+                      const std::string& encoding, bool triangle_quality, const py::object& threads,
+                      const std::string& cells) {
   const auto executor = make_threads(threads_from(threads));
   io::WriteOptions options;
   options.format = format;
   if (!encoding.empty()) options.encoding = from_name<io::Encoding>("encoding", encoding);
   options.triangle_quality = triangle_quality;
+  if (!cells.empty()) options.cells = from_name<CellsOf>("cells", cells);
   options.executor = executor.get();
   const PyMesh same = self.copy();
   return to_python(aside([&] {

@@ -18,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include "temper/detail/cells.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/outline.hpp"
@@ -181,6 +182,9 @@ struct WriteOptions {
   /// Add arrays of cell data to VTU and VTKHDF, for ParaView to color. They are bytes and floats, with the names in
   /// TriangleQuality or tets::TetrahedronQuality. read() leaves them out, because write() makes them again.
   bool triangle_quality = true;
+  /// Cells to write as polygons instead of the mesh, in one of cell_formats(). The mesh cannot be read from such a file
+  /// again.
+  std::optional<CellsOf> cells = {};
 };
 
 /// A format that temper knows. A new format is one source file and one row.
@@ -195,6 +199,13 @@ struct Format {
   bool holds_tetrahedra;      ///< Format can hold meshes of tetrahedra
 };
 [[nodiscard]] std::span<const Format> formats();
+/// A format for polygons of cells: see WriteOptions::cells. docs/reference/formats/cells.md lists their contents.
+struct CellFormat {
+  std::string_view name;  ///< Name: "geojson", …
+  std::string_view description;
+  std::string_view suffixes;  ///< Suffixes ".geojson", …, separated by spaces
+};
+[[nodiscard]] std::span<const CellFormat> cell_formats();
 /// The version of libnetcdf, such as "4.9.0"; empty if there is none. The library is loaded now, if no file has needed
 /// it before.
 [[nodiscard]] std::string netcdf_version();
@@ -224,9 +235,10 @@ struct Format {
 [[nodiscard]] std::vector<std::string> files_to_read(const std::string& path);
 /// The files that write() would replace or make, the weights file included; or the error that it would return. `file`:
 /// what is to be written, if it is known. The format must have a place for its space or its tetrahedra, and its mesh
-/// may change.
+/// may change. `cells`: as in WriteOptions.
 [[nodiscard]] Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format = {},
-                                                                const MeshFile* file = nullptr);
+                                                                const MeshFile* file = nullptr,
+                                                                std::optional<CellsOf> cells = {});
 
 /// The open file of this process that the path stands for, links followed: 1 for "/dev/stdout" and for a link to
 /// "/proc/self/fd/1". −1: none. It may be closed.

@@ -11,7 +11,7 @@ from . import _temper
 from ._errors import TemperWarning
 from ._mesh import Mesh, _warn
 from ._records import Record
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 
 
 @dataclasses.dataclass(frozen=True)
@@ -106,6 +106,7 @@ def write(
     format: str | None = None,
     encoding: Literal["ascii", "base64", "appended"] | None = None,
     triangle_quality: bool = True,
+    cells: Literal["power", "triangles"] | None = None,
     threads: int | None = None,
 ) -> list[str]:
     """Writes a mesh, with all other contents of its original file.
@@ -127,6 +128,10 @@ def write(
         Add the arrays of ``triangle_quality()`` or ``tetrahedron_quality()`` as cell data to VTU and VTKHDF, for
         ParaView to color. ``read`` leaves
         them out.
+    cells : {"power", "triangles"}, optional
+        Cells to write as polygons instead of a mesh of triangles: power cells within the domain, or triangles. Each has
+        its region, area and center (docs/reference/formats/cells.md). The suffix is ``.geojson``, ``.gpkg``, ``.vtu``
+        or ``.ugrid.nc``, or ``format`` names one of ``geojson``, ``gpkg``, ``vtu`` and ``ugrid``.
     threads : int, optional
         Threads that compress; the bytes written do not depend on them.
 
@@ -142,7 +147,11 @@ def write(
     """
     any_mesh = as_any_mesh(mesh)
     how = os.fspath(path), any_mesh._handle, format or "", encoding or "", triangle_quality, threads
-    messages: list[str] = _temper.write_tets(*how) if isinstance(any_mesh, TetMesh) else _temper.write(*how)
+    if isinstance(any_mesh, TetMesh):
+        expect_no_options_of_triangles(write, cells=cells)
+        messages: list[str] = _temper.write_tets(*how)
+    else:
+        messages = _temper.write(*how, cells or "")
     for message in messages:
         warnings.warn(message, TemperWarning, stacklevel=2)
     return messages

@@ -13,6 +13,7 @@
 #include "io/conversion/update.hpp"
 #include "io/disk/files.hpp"
 #include "io/formats/format.hpp"
+#include "io/operators/cell_files.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
@@ -215,7 +216,7 @@ const FormatRow& row_to_write(const std::string& path, const std::string& format
   }
   if (best != nullptr) return *best;
   fail(ErrorCode::invalid_option, path, "the suffix names no format that temper writes; expected one of ",
-       join(of_written(&FormatRow::suffixes), " "), ", or a format");
+       join(of_written(&FormatRow::suffixes), " "), ", or a format", next_for_cells(path));
 }
 
 /// What messages call the cells of one dimension.
@@ -367,6 +368,7 @@ FileInFormat file_in_format(const FormatRow& row, const MeshFile& file) {
 }  // namespace
 
 Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
+  if (options.cells) return write_cells(path, file, options);
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, options.format);
     if (file.dimension() == 3) expect_place(row, path, file);
@@ -416,8 +418,9 @@ std::vector<std::string> files_to_read(const std::string& path) {
 }
 
 Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format,
-                                                  const MeshFile* file) {
+                                                  const MeshFile* file, std::optional<CellsOf> cells) {
   return guarded<std::vector<std::string>>(path, [&] {
+    if (cells) return files_of_cells(path, format);
     const FormatRow& row = row_to_write(path, format);
     if (file != nullptr) expect_place(row, path, *file);
     std::vector<std::string> files =

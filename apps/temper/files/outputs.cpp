@@ -107,9 +107,18 @@ void add_mesh_output(Command& command, MeshOutput& target, const std::string& va
   for (const io::Format& format : io::formats()) {
     if (format.writes) names.push_back(format.name);
   }
+  for (const io::CellFormat& format : io::cell_formats()) {
+    if (std::ranges::find(names, format.name) == names.end()) names.push_back(format.name);
+  }
   add_name(
       command, "--format", names, [&target](std::string_view name) { target.options.format = name; },
       "Format of " + value_name + ". Without it, the suffix selects the format.");
+  add_choice(
+      command, "--cells", kCellsOf, [&target](CellsOf value) { target.options.cells = value; },
+      "Cells to write as polygons, instead of the mesh: power cells within the domain, or triangles. Each has its "
+      "region, "
+      "area and center. " +
+          value_name + " is a GeoJSON, GeoPackage, VTU or UGRID file. See docs/reference/formats/cells.md.");
   static constexpr Choice<io::Encoding> kEncodings[] = {{"ascii", io::Encoding::ascii},
                                                         {"base64", io::Encoding::base64},
                                                         {"appended", io::Encoding::appended},
@@ -195,7 +204,7 @@ void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::strin
   const auto& [path, options] = output;
   std::error_code ignored;
   if (fs::is_directory(path_of(path), ignored)) not_writable(path, "it is a directory");
-  const Expected<std::vector<std::string>> files = io::files_to_write(path, options.format);
+  const Expected<std::vector<std::string>> files = io::files_to_write(path, options.format, nullptr, options.cells);
   if (!files) refuse(option, files.error().what());
   for (const std::string& file : *files) {
     if (const std::string* const input = input_with(file, others))
@@ -207,7 +216,7 @@ void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::strin
 
 void Outputs::expect_place(const MeshOutput& output, const io::MeshFile& file) const {
   if (output.path.empty()) return;
-  const auto files = io::files_to_write(output.path, output.options.format, &file);
+  const auto files = io::files_to_write(output.path, output.options.format, &file, output.options.cells);
   if (!files) fail(files.error());
 }
 

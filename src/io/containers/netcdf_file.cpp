@@ -244,6 +244,21 @@ int NetcdfWriter::variable(const std::string& name, const std::vector<int>& dime
   return id;
 }
 
+int NetcdfWriter::texts(const std::string& name, int rows, const std::vector<std::string_view>& values) {
+  std::size_t width = 1;
+  for (const std::string_view value : values) width = std::max(width, value.size());
+  std::vector<std::int8_t> bytes;  // of characters
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    bytes.insert(bytes.end(), values[i].begin(), values[i].end());
+    bytes.resize(width * (i + 1), 0);
+  }
+  const std::array<int, 2> dimensions = {rows, dimension(text(name, "_length"), width)};
+  int id = -1;
+  check(library_.nc_def_var(id_, name.c_str(), NC_CHAR, 2, dimensions.data(), &id), text("define variable ", name));
+  waiting_.emplace_back(id, std::move(bytes));
+  return id;
+}
+
 void NetcdfWriter::attribute(int variable, const char* name, std::string_view value) {
   check(library_.nc_put_att_text(id_, variable, name, value.size(), value.data()), text("define attribute ", name));
 }

@@ -139,6 +139,8 @@ class NetcdfWriter {
   int dimension(const std::string& name, std::size_t size);
   /// A new variable; the values are written by finish(), a single one when there are no dimensions.
   int variable(const std::string& name, const std::vector<int>& dimensions, Values values);
+  /// A new variable of characters with a row for each element, filled up with zeros.
+  int texts(const std::string& name, int rows, const std::vector<std::string_view>& values);
   [[nodiscard]] bool has(const std::string& name) const;
   static constexpr int kFile = -1;  ///< instead of a variable
   void attribute(int variable, const char* name, std::string_view text);
