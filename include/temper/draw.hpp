@@ -1,11 +1,14 @@
 // Pictures of primal-dual meshes, as SVG text.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "temper/detail/cells.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -22,6 +25,12 @@ struct TriangleColors {
   std::vector<IdVector<TriangleId, double>> values;  ///< Value of each triangle, for each panel
 };
 
+/// Cells filled by their regions, in the place of triangles. Colors repeat after the eighth region.
+struct RegionCells {
+  std::vector<CellPolygons> panels;                ///< Cells of each panel, in a plane
+  std::map<std::int32_t, std::string> names = {};  ///< Names of regions, for the legend
+};
+
 struct DrawOptions {
   bool primal = true;  ///< Edges of the triangulation; the boundary and constrained edges are thicker
   bool dual = true;    ///< Edges of the power diagram, between orthocenters; dashed where their length is negative
@@ -33,6 +42,7 @@ struct DrawOptions {
   bool near_coincident = true;  ///< Draw rings around vertices that nearly coincide with a neighbor
   bool vertex_numbers = false;
   std::optional<TriangleColors> colors = {};  ///< Colors instead of margins and bad triangles
+  std::optional<RegionCells> cells = {};      ///< Cells instead of triangles; `fill` and `colors` then have no effect
   std::optional<Box> zoom = {};               ///< Box that the picture shows
   /// Middle of the picture for a sphere: longitude and latitude [degrees]. None: the middle of a mesh that is a part of
   /// the sphere, else 0, 0. Parts behind the limb are not drawn. A zoom box is in the plane of the picture [length],

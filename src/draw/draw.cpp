@@ -92,7 +92,25 @@ bool any(std::span<const Shown> shown, What what) {
 }
 
 bool is_hatched(std::span<const Shown> shown, const DrawOptions& options) {
-  return !options.colors && options.fill && any(shown, [](const Panel& p) { return p.bad > 0; });
+  return !options.colors && !options.cells && options.fill && any(shown, [](const Panel& p) { return p.bad > 0; });
+}
+
+std::string rect_mark(const std::string& fill) {
+  return "<rect y=\"-0.45\" width=\"1.5\" height=\"0.9\" fill=\"" + fill + "\"/>";
+}
+
+// A key for each region, as long as colors differ.
+std::vector<Key> region_keys(const RegionCells& cells) {
+  std::vector<Key> keys;
+  for (const std::int32_t region : regions_of(cells)) {
+    if (keys.size() == kRegionColors.size()) break;
+    const auto named = cells.names.find(region);
+    std::string label = named == cells.names.end() ? "region " + std::to_string(region) : named->second;
+    std::ranges::replace_if(
+        label, [](char c) { return c == '_' || c == '^'; }, ' ');  // no indexes
+    keys.push_back({label, rect_mark(kRegionColors[keys.size()])});
+  }
+  return keys;
 }
 
 // The legend has only what some panel really shows.
@@ -101,9 +119,11 @@ std::vector<Key> legend(std::span<const Shown> shown, const Viewport& viewport, 
   std::vector<Key> keys;
   if (is_hatched(shown, options)) {
     const std::string fill = viewport.shows_detail() ? hatched(viewport, 1 / viewport.em) : Palette::warning;
-    keys.push_back({words.bad, "<rect y=\"-0.45\" width=\"1.5\" height=\"0.9\" fill=\"" + fill + "\"/>"});
+    keys.push_back({words.bad, rect_mark(fill)});
   }
-  if (options.colors) {
+  if (options.cells) {
+    keys = region_keys(*options.cells);
+  } else if (options.colors) {
     keys.push_back(scale_key(options.colors->label, scale_of(*options.colors)));
   } else if (options.fill && any(shown, [](const Panel& p) { return p.bad < p.elements; })) {
     keys.push_back(scale_key("margin", words.margins));
@@ -211,6 +231,7 @@ std::string draw_sections_svg(std::span<const Section> sections, const DrawOptio
   DrawOptions how = options;
   how.dual = how.weights = false;
   how.colors.reset();
+  how.cells.reset();
   const Viewport viewport = make_viewport(sections, how);
   std::vector<Shown> shown;
   shown.reserve(sections.size());

@@ -45,6 +45,7 @@ class PanelPainter : public Painter {
     panel_.elements = mesh_.n_triangles();
     draw_globe();
     fill_triangles();
+    if (options_.cells) fill_cells();
     if (options_.primal) draw_edges();
     if (options_.dual && detailed_) draw_dual();
     if (options_.weights && detailed_) draw_weights();
@@ -92,7 +93,7 @@ class PanelPainter : public Painter {
       const TriangleMeasure measure = measure_triangle(mesh_, t);
       const bool good = measure.well_centered();
       panel_.bad += good ? 0 : 1;
-      if (!options_.colors && !options_.fill) continue;
+      if (options_.cells || (!options_.colors && !options_.fill)) continue;
       const double value = options_.colors ? options_.colors->values[number_][t] : measure.margin();
       if (!options_.colors && !good) {
         add_triangle(fills.bad, t);
@@ -101,6 +102,22 @@ class PanelPainter : public Painter {
       }
     }
     fill(fills);
+  }
+
+  void fill_cells() {
+    const CellPolygons& cells = options_.cells->panels[number_];
+    const std::vector<std::int32_t> regions = regions_of(*options_.cells);
+    std::array<PathText, kRegionColors.size()> paths;
+    for (std::size_t p = 0; p < cells.n_polygons(); ++p) {
+      const auto region = std::ranges::lower_bound(regions, cells.regions[cells.cells[p]]);
+      PathText& path = paths[static_cast<std::size_t>(region - regions.begin()) % paths.size()];
+      for (const Vec2 shift : shifts_) {
+        std::vector<Vec2> polygon;
+        for (const std::uint32_t corner : cells.polygon(p)) polygon.push_back(shift + cells.points[corner]);
+        add_polygon(path, std::move(polygon));
+      }
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i) fill(paths[i], "region", kRegionColors[i]);
   }
 
   /// Fades what repeats the domain, and marks the lines at which a period begins again.
@@ -144,7 +161,7 @@ class PanelPainter : public Painter {
     for (HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h)) continue;
       const bool outline = mesh_.is_unflippable(h);
-      if (!outline && !viewport_.shows_edges()) continue;
+      if (!outline && (options_.cells || !viewport_.shows_edges())) continue;
       const WeightedPoint from = mesh_.point(mesh_.origin(h));
       add_line(outline ? kept : plain, from, mesh_.point(mesh_.target(h), from));
     }
@@ -301,6 +318,15 @@ ColorScale scale_of(const TriangleColors& colors) {
     }
   }
   return scale;
+}
+
+std::vector<std::int32_t> regions_of(const RegionCells& cells) {
+  std::vector<std::int32_t> regions;
+  for (const CellPolygons& panel : cells.panels)
+    regions.insert(regions.end(), panel.regions.begin(), panel.regions.end());
+  std::ranges::sort(regions);
+  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  return regions;
 }
 
 std::size_t ColorScale::color(double value) const {

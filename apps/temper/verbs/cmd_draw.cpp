@@ -15,6 +15,8 @@
 #include "files/tensor_option.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
+#include "temper/dec.hpp"
+#include "temper/detail/cells.hpp"
 #include "temper/detail/read_number.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/draw.hpp"
@@ -30,6 +32,7 @@ struct DrawSettings {
   std::string input, before, output, color, cut;
   DrawOptions options;
   std::optional<Metric> metric;
+  std::optional<CellsOf> cells;
   bool no_primal = false, no_dual = false, no_rings = false;
 };
 
@@ -69,6 +72,11 @@ void add_options(Command& command, DrawSettings& s) {
       .cells_of = [](std::string_view color) {
     return color.empty() || color == "none" ? CellKinds::both : CellKinds::triangles;
   };
+  add_choice(
+      command, "--cells", kCellsOf, [&s](CellsOf value) { s.cells = value; },
+      "Cells to fill by their regions, instead of triangles by their margin: power cells or triangles. Of the edges, "
+      "only "
+      "boundaries and lines are drawn.");
   add_tensor(command, s.metric, "Draw meshes");
   command.add_flag("--numbers", s.options.vertex_numbers, "Number the vertices, from 0.");
   add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "Factor on the radius of weight circles.");
@@ -88,6 +96,7 @@ void add_options(Command& command, DrawSettings& s) {
                     "  temper draw in.vtu -o mesh.svg\n"
                     "  temper draw out.vtu --before in.vtu -o both.svg\n"
                     "  temper draw in.vtu -o angle.svg --color angle --no-dual\n"
+                    "  temper draw out.vtu -o cells.svg --cells power --no-dual\n"
                     "  temper draw box.mesh -o cut.svg --cut x=0.5\n"
                     "  temper draw in.vtu -o corner.svg --zoom 0,0,0.5,0.5 --numbers --weights\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
@@ -129,6 +138,19 @@ void set_colors(DrawOptions& options, const std::string& name, std::initializer_
   const auto known = std::ranges::find(triangle_values(), name, &TriangleValue::name);
   options.colors = TriangleColors{known != triangle_values().end() ? std::string(known->label) : name, {}};
   for (const Input* panel : panels) options.colors->values.push_back(values_of(*panel, name));
+}
+
+/// The cells of the panels, from left to right.
+void set_cells(DrawOptions& options, const std::optional<CellsOf>& of, std::initializer_list<const Input*> panels) {
+  if (!of) return;
+  options.cells.emplace();
+  for (const Input* panel : panels) {
+    expect_plane(panel->mesh(), panel->path, "--cells");
+    options.cells->panels.push_back(cell_polygons(panel->mesh(), dec_operators(panel->mesh()), *of));
+    for (const PhysicalName& name : panel->file.names) {
+      if (name.dimension == 2) options.cells->names.emplace(name.tag, name.name);
+    }
+  }
 }
 
 void check_zoom(const DrawOptions& options) {
@@ -183,11 +205,13 @@ std::string picture(const DrawSettings& s, Input& input, Input* before) {
   take_to_metric(input, s.metric);
   if (before == nullptr) {
     set_colors(options, s.color, {&input});
+    set_cells(options, s.cells, {&input});
     return draw_svg(input.mesh(), options);
   }
   take_to_metric(*before, s.metric);
   check_same_space(*before, input);
   set_colors(options, s.color, {before, &input});
+  set_cells(options, s.cells, {before, &input});
   return draw_before_after_svg(before->mesh(), input.mesh(), options);
 }
 
@@ -224,6 +248,7 @@ Exit run_draw(const Arguments& arguments) {
   s.options.dual = !s.no_dual;
   s.options.near_coincident = !s.no_rings;
   check_zoom(s.options);
+  if (s.cells && command.was_given("--color")) refuse_usage("draw", "--color and --cells: expected one of the two");
   expect_without(command, s.metric, "--zoom");
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});

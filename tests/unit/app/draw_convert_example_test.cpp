@@ -42,9 +42,10 @@ TEST_F(Draw, EveryOptionChangesThePicture) {
         "Triangles\n6\n1 2 5 1\n2 6 5 1\n1 5 6 1\n2 3 6 2\n3 4 6 2\n4 1 6 2\nEnd\n");
   write("a.mesh.weights.csv", "point,weight\n1,0\n2,0.01\n3,0\n4,-0.01\n5,0\n6,0\n");
   const std::vector<std::vector<std::string>> options = {
-      {"--no-primal"},    {"--color", "angle"}, {"--no-dual"},        {"--color", "none"},
-      {"--no-rings"},     {"--weights"},        {"--numbers"},        {"--zoom", "0,0,0.5,0.5"},
-      {"--width", "300"}, {"--title", "a < b"}, {"--tensor", "4,0,1"}};
+      {"--no-primal"},         {"--color", "angle"}, {"--no-dual"},         {"--color", "none"},
+      {"--no-rings"},          {"--weights"},        {"--numbers"},         {"--zoom", "0,0,0.5,0.5"},
+      {"--width", "300"},      {"--title", "a < b"}, {"--tensor", "4,0,1"}, {"--cells", "power"},
+      {"--cells", "triangles"}};
   temper_ok({"draw", "a.mesh", "-o", "plain.svg"});
   const std::string plain = read("plain.svg");
   for (const auto& option : options) {
@@ -54,6 +55,26 @@ TEST_F(Draw, EveryOptionChangesThePicture) {
     EXPECT_NE(read("other.svg"), plain) << option.front();
   }
   EXPECT_TRUE(contains(shell("temper draw a.mesh --title 'a < b' -o /dev/stdout").out, "a &lt; b"));
+}
+
+TEST_F(Draw, CellsAreFilledByRegionAndTheLegendNamesThem) {
+  write("a.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 2 \"clay\"\n$EndPhysicalNames\n$Nodes\n5\n"
+        "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0.5 0\n$EndNodes\n$Elements\n4\n"
+        "1 2 2 1 1 1 2 5\n2 2 2 1 1 2 3 5\n3 2 2 2 2 3 4 5\n4 2 2 2 2 4 1 5\n$EndElements\n");
+  temper_ok({"draw", "a.msh", "-o", "p.svg", "--cells", "power"});
+  const std::string svg = read("p.svg");
+  EXPECT_TRUE(contains(svg, ">region 1</text>"));
+  EXPECT_TRUE(contains(svg, ">clay</text>"));
+  std::size_t n = 0;
+  for (std::size_t at = svg.find("class=\"region\""); at != std::string::npos;
+       at = svg.find("class=\"region\"", at + 1))
+    ++n;
+  EXPECT_EQ(n, 2u) << "a path for each region";
+  EXPECT_FALSE(contains(svg, "class=\"margin\""));
+  EXPECT_FALSE(contains(svg, "class=\"primal\"")) << "of the edges only the boundary and lines";
+  EXPECT_TRUE(contains(svg, "class=\"constrained\""));
+  EXPECT_EQ(temper({"draw", "a.msh", "-o", "p.svg", "--cells", "power", "--color", "angle"}).exit, 2);
 }
 
 TEST_F(Draw, TheSuffixTellsTheFormat) {
@@ -203,6 +224,28 @@ TEST_F(Convert, FormatAndEncodingAreAsAsked) {
   EXPECT_TRUE(contains(read("ascii.vtu"), "format=\"ascii\""));
   temper_ok({"convert", "a.vtu", "-o", "no-suffix", "--format", "gmsh22"});
   EXPECT_EQ(read("no-suffix").rfind("$MeshFormat\n2.2", 0), 0u);
+}
+
+TEST_F(Convert, CellsGoIntoFilesOfPolygonsAndNoMeshIntoThese) {
+  make_input("a.vtu");
+  temper_ok({"convert", "a.vtu", "-o", "cells.geojson", "--cells", "power"});
+  const auto check = nlohmann::json::parse(temper_ok({"check", "a.vtu", "--json"}).out);
+  const auto cells = read_json("cells.geojson");
+  EXPECT_EQ(cells.at("features").size(), check.at("vertices"));
+  temper_ok({"convert", "a.vtu", "-o", "triangles.geojson", "--cells", "triangles"});
+  EXPECT_EQ(read_json("triangles.geojson").at("features").size(), check.at("triangles"));
+  temper_ok({"convert", "a.vtu", "-o", "cells", "--cells", "power", "--format", "gpkg"});
+  EXPECT_TRUE(read("cells").starts_with("SQLite format 3"));
+  temper_ok({"optimize", "a.vtu", "-o", "optimized.geojson", "--cells", "power", "--quiet"});
+  const auto refused = temper({"convert", "a.vtu", "-o", "mesh.geojson"});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_TRUE(contains(refused.err, "GeoJSON holds polygons of cells. Next: --cells power")) << refused.err;
+  EXPECT_EQ(temper({"convert", "a.vtu", "-o", "cells.msh", "--cells", "power"}).exit, 2);
+  make_tetrahedra("two.mesh");
+  const auto tetrahedra = temper({"convert", "two.mesh", "-o", "cells.vtu", "--cells", "power"});
+  EXPECT_EQ(tetrahedra.exit, 2);
+  EXPECT_TRUE(contains(tetrahedra.err, "triangles alone")) << tetrahedra.err;
+  EXPECT_FALSE(exists("mesh.geojson") || exists("cells.msh") || exists("cells.vtu"));
 }
 
 TEST_F(Convert, ReplacesItsOwnInput) {
