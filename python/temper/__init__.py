@@ -43,7 +43,8 @@ except ImportError as error:
     raise ImportError(_not_compiled()) from None
 
 from . import energy, generate, geometry, projection, size, topology, types
-from ._dec import columns, dec_operators
+from ._dec import barriers_of_lines, columns, dec_operators
+from ._polygons import power_cells, triangle_cells
 from ._draw import draw_svg, grid_svg, html_report
 from ._errors import TemperError, TemperWarning
 from ._explain import explain, explain_duals

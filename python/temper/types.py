@@ -4,7 +4,8 @@ in notebooks.
 Submodules have such classes of their own, for example ``temper.topology``.
 """
 
-from ._dec import Columns, DecComplex, DecEdges, IncidenceMatrix, PowerCells, TetDecComplex, TetDecEdges, TetDecFaces
+from ._polygons import CellPolygons
+from ._dec import Barrier, Columns, DecComplex, DecEdges, IncidenceMatrix, PowerCells, TetDecComplex, TetDecEdges, TetDecFaces
 from ._draw import Html, Svg
 from ._io import Format
 from ._measure import QualityMeasure, TetrahedronQuality, TriangleQuality
