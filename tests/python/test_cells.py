@@ -131,6 +131,19 @@ def test_spheres_have_cells_but_no_grid():
         cells.gridprops()
 
 
+def test_geographic_programs_read_planes_and_spheres(mesh, in_scratch):
+    geopandas = pytest.importorskip("geopandas")
+    sphere = temper.generate.random_sphere(vertices=200)
+    for suffix in ("geojson", "gpkg"):
+        temper.write(f"plane.{suffix}", mesh, cells="power")
+        temper.write(f"sphere.{suffix}", sphere, cells="power")
+        plane, globe = (geopandas.read_file(f"{name}.{suffix}") for name in ("plane", "sphere"))
+        assert not plane.crs.is_geographic and globe.crs.to_epsg() == 4326
+        assert plane.is_valid.all() and globe.is_valid.all()
+        assert np.allclose(plane.geometry.area, plane["area"], rtol=1e-11)
+        assert sum(shape.area for shape in globe.geometry) == pytest.approx(360 * 180)
+
+
 def test_cells_are_pickled(cells):
     again = pickle.loads(pickle.dumps(cells))
     assert (again.points == cells.points).all() and (again.connectivity == cells.connectivity).all()

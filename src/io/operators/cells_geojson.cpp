@@ -1,9 +1,13 @@
 // Polygons of cells as GeoJSON (RFC 7946), one feature per line. Degrees are longitude and latitude of WGS 84. In a
-// plane the collection has a member "crs" of null, as in the first edition of GeoJSON: positions are no degrees.
+// plane the collection has a member "crs", as in the first edition of GeoJSON. Its name is an undefined Cartesian
+// system: GDAL takes positions for degrees if it is null.
 #include "io/operators/cell_files.hpp"
 
 namespace temper::io {
 namespace {
+
+constexpr std::string_view kUndefinedSystem =
+    R"("crs":{"type":"name","properties":{"name":"LOCAL_CS[\"Undefined Cartesian SRS\",UNIT[\"metre\",1]]"}},)";
 
 /// In quotes, with the escapes of JSON. Names have no control characters.
 std::string json_text(std::string_view value) {
@@ -35,7 +39,8 @@ void write_cells_geojson(const CellJob& job) {
   const FlatPlaces places = flat_places(job);
   const std::vector<CellColumn> columns = job.columns();
   Output& out = job.outputs.open(job.path);
-  out.put("{\"type\":\"FeatureCollection\",", places.in_degrees ? "" : "\"crs\":null,", "\"features\":[");
+  out.put("{\"type\":\"FeatureCollection\",", places.in_degrees ? std::string_view() : kUndefinedSystem,
+          "\"features\":[");
   bool is_first = true;
   for_each_cell_of(job.cells, [&](std::size_t cell, std::size_t begin, std::size_t end) {
     std::vector<Ring> rings;

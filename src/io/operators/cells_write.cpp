@@ -120,29 +120,40 @@ Ring clipped_at(const Ring& ring, double longitude, bool east) {
   return part;
 }
 
-/// The ring with longitudes that do not jump by 360°. Around a pole it goes along the edge of the map.
-Ring unrolled(const Ring& ring) {
-  Ring result;
+/// A ring with longitudes that do not jump by 360°. Around a pole it goes around twice and comes back along the edge of
+/// the map, so that it covers a whole sheet from −180° to 180°.
+struct UnrolledRing {
+  Ring ring;
+  bool around_pole = false;
+};
+UnrolledRing unrolled(const Ring& ring) {
+  UnrolledRing result;
   double last = ring.front().x;
   const auto next = [&last](double longitude) {
     return last = longitude + kWholeTurn * std::round((last - longitude) / kWholeTurn);
   };
-  for (const Vec2 p : ring) result.push_back({next(p.x), p.y});
-  const Vec2 first = result.front(), end = {next(first.x), first.y};
-  if (end.x == first.x) return result;
-  const double pole = end.x > first.x ? kPoleLatitude : -kPoleLatitude;
-  result.insert(result.end(), {end, {end.x, pole}, {first.x, pole}});
+  for (const Vec2 p : ring) result.ring.push_back({next(p.x), p.y});
+  const Ring once = result.ring;
+  const Vec2 first = once.front();
+  const double turn = next(first.x) - first.x;
+  if (turn == 0) return result;
+  for (const Vec2 p : once) result.ring.push_back({p.x + turn, p.y});
+  const double end = first.x + 2 * turn, pole = turn > 0 ? kPoleLatitude : -kPoleLatitude;
+  result.ring.insert(result.ring.end(), {{end, first.y}, {end, pole}, {first.x, pole}});
+  result.around_pole = true;
   return result;
 }
 
 /// The parts of a ring in degrees that are between −180 and 180.
 std::vector<Ring> on_map(const Ring& ring) {
-  const Ring whole = unrolled(ring);
-  const auto [least, most] = std::ranges::minmax(whole, {}, &Vec2::x);
+  const UnrolledRing whole = unrolled(ring);
+  const auto [least, most] = std::ranges::minmax(whole.ring, {}, &Vec2::x);
   std::vector<Ring> parts;
-  const auto sheet = [](double longitude) { return std::floor((longitude + kHalfTurn) / kWholeTurn); };
-  for (double k = sheet(least.x); k == sheet(least.x) || kWholeTurn * k - kHalfTurn < most.x; ++k) {
-    Ring part = clipped_at(clipped_at(whole, kWholeTurn * k - kHalfTurn, true), kWholeTurn * k + kHalfTurn, false);
+  const double first = std::floor((least.x + kHalfTurn) / kWholeTurn);
+  for (double k = first; k == first || kWholeTurn * k - kHalfTurn < most.x; ++k) {
+    const double west = kWholeTurn * k - kHalfTurn, east = kWholeTurn * k + kHalfTurn;
+    if (whole.around_pole && (west < least.x || !parts.empty())) continue;  // one whole sheet
+    Ring part = clipped_at(clipped_at(whole.ring, west, true), east, false);
     for (Vec2& p : part) p.x -= kWholeTurn * k;
     if (part.size() > 2) parts.push_back(std::move(part));
   }

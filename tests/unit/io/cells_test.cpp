@@ -51,7 +51,7 @@ class CellFiles : public FileTest {
 TEST_F(CellFiles, GeoJsonHasAFeatureForEachCellWithItsNumbers) {
   const Json root = geojson(square());
   ASSERT_EQ(root.at("features").size(), 5u);
-  EXPECT_TRUE(root.at("crs").is_null()) << "lengths, not degrees";
+  EXPECT_TRUE(root.at("crs").at("properties").at("name").get<std::string>().starts_with("LOCAL_CS")) << "no degrees";
   double area = 0;
   for (std::size_t i = 0; i < 5; ++i) {
     const Json& feature = root.at("features")[i];
@@ -119,6 +119,8 @@ TEST_F(CellFiles, DegreesStayDegreesAndPolygonsAreCutAtTheDateLine) {
       for (const Json& position : polygon[0]) {
         EXPECT_LE(std::abs(position[0].get<double>()), 180);
         EXPECT_LE(std::abs(position[1].get<double>()), 90);
+        const bool is_pole = std::abs(position[1].get<double>()) == 90;
+        EXPECT_FALSE(is_pole && several) << "one whole sheet around a pole";
       }
     }
   }
