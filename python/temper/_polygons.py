@@ -148,7 +148,7 @@ def power_cells(mesh: MeshLike) -> CellPolygons:
     >>> import temper
     >>> mesh = temper.generate.annulus()
     >>> cells = temper.power_cells(mesh)
-    >>> bool(abs(cells.area.sum() - temper.quality(mesh).area) < 1e-9)
+    >>> bool(abs(cells.area.sum() - temper.dec_operators(mesh).areas.sum()) < 1e-9)
     True
     """
     return _polygons_of(as_mesh(mesh), "power")
