@@ -163,6 +163,7 @@ std::optional<Columns> make_columns(const DecSettings& s, const Input& input, co
 
 /// None without --barriers.
 std::vector<io::Barrier> make_barriers(const DecSettings& s, const Input& input) {
+  if (s.barriers.empty()) return {};
   std::vector<std::pair<std::string, double>> characteristics;
   for (const std::string& entry : separated(s.barriers)) {
     const std::size_t equals = entry.rfind('=');
