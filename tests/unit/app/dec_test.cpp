@@ -148,7 +148,7 @@ TEST_F(Dec, TrianglesMayBeTheCellsWithBarriersOnTheirEdges) {
   };
   const auto json = nlohmann::json::parse(temper_ok(with({"--cells", "triangles", "--barriers", "fault=1e-6"})).out);
   EXPECT_EQ(json.at("files"), nlohmann::json({"out/mesh.disv", "out/mesh.disv.csv", "out/mesh.disv.hfb"}));
-  EXPECT_EQ(json.at("columns").at("cells"), 4);
+  EXPECT_EQ(json.at("columns").at("active"), 4);
   EXPECT_TRUE(contains(read("out/mesh.disv"), "NCPL 2\n  NVERT 4"));
   EXPECT_TRUE(contains(read("out/mesh.disv.hfb"), "MAXHFB 2\n"));
   EXPECT_TRUE(contains(read("out/mesh.disv.hfb"), "# fault\n  1 1 1 2 1e-06\n  2 1 2 2 1e-06\nEND PERIOD\n") ||
