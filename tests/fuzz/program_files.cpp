@@ -68,7 +68,7 @@ void read_layers(std::string_view bytes) {
   static const Scratch scratch;
   const Mesh& mesh = input().mesh();
   static const DecComplex complex = dec_operators(mesh);
-  static const PowerCells cells = power_cells(mesh, complex);
+  static const CellPolygons cells = cell_polygons(mesh, complex);
   const auto layers = io::read_layers(scratch.make("l.csv", bytes), input().file, input().loaded);
   if (!layers) return insist(!layers.error().message.empty(), "an error has a message");
   const auto made = columns(mesh, complex, cells, *layers);

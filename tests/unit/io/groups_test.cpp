@@ -253,11 +253,11 @@ TEST_F(Groups, HaveTheCellsThatTheirPointsAndLinesAreIn) {
   std::set<VertexId> wells;
   for (const GroupCell& cell : cells) {
     if (cell.kind == GroupKind::point) {
-      if (cell.name == "wells") wells.insert(cell.vertex);
+      if (cell.name == "wells") wells.insert(VertexId(cell.cell));
       continue;
     }
     lengths[cell.name] += cell.length;
-    found[{cell.name, cell.vertex}] += cell.length;
+    found[{cell.name, VertexId(cell.cell)}] += cell.length;
     if (cell.name == "sand") continue;  // on the boundary and inside
     EXPECT_EQ(cell.kind == GroupKind::boundary, cell.name == "open sea" || cell.name == "1") << cell.name;
   }
@@ -292,7 +292,7 @@ TEST_F(Groups, HaveTheCellsOfThirdVerticesThatALinePasses) {
   const std::vector<GroupCell> cells = cells_of_groups(f, *loaded, loaded->mesh);
   ASSERT_EQ(cells.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(cells[i].vertex, VertexId(i));
+    EXPECT_EQ(cells[i].cell, i);
     EXPECT_EQ(cells[i].name, "5");
     EXPECT_NEAR(cells[i].length, i < 2 ? 17.0 / 16 : 30.0 / 16, 1e-12);
   }
