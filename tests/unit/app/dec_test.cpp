@@ -157,7 +157,7 @@ TEST_F(Dec, TrianglesMayBeTheCellsWithBarriersOnTheirEdges) {
   expect_failure(with({"--barriers", "fault=1"}), 2, "--barriers: lines run through the centers of power cells");
   expect_failure(with({"--cells", "triangles", "--barriers", "fault"}), 2,
                  "--barriers: expected NAME=NUMBER, found 'fault'");
-  expect_failure(with({"--cells", "triangles", "--barriers", "river=1"}), 1,
+  expect_failure(with({"--cells", "triangles", "--barriers", "river=1"}), 2,
                  "barrier 'river': no line inside the domain has this name or tag");
 }
 
