@@ -466,6 +466,8 @@ def barriers_of_lines(mesh: MeshLike, characteristics: Mapping[str, float]) -> l
     TemperError
         No line inside the domain has the name or tag; a value that is not finite.
     """
+    if not isinstance(characteristics, Mapping):
+        raise TypeError(f"characteristics: expected a dict of str to float, found {type(characteristics).__name__}")
     named = [(str(name), float(value)) for name, value in characteristics.items()]
     return [Barrier(*row) for row in _temper.barriers_of_lines(as_mesh(mesh)._handle, named)]
 

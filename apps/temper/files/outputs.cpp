@@ -116,9 +116,7 @@ void add_mesh_output(Command& command, MeshOutput& target, const std::string& va
   add_choice(
       command, "--cells", kCellsOf, [&target](CellsOf value) { target.options.cells = value; },
       "Cells to write as polygons, instead of the mesh: power cells within the domain, or triangles. Each has its "
-      "region, "
-      "area and center. " +
-          value_name + " is a GeoJSON, GeoPackage, VTU or UGRID file. See docs/reference/formats/cells.md.");
+      "region, area and center. The formats are GeoJSON, GeoPackage, VTU and UGRID.");
   static constexpr Choice<io::Encoding> kEncodings[] = {{"ascii", io::Encoding::ascii},
                                                         {"base64", io::Encoding::base64},
                                                         {"appended", io::Encoding::appended},

@@ -35,6 +35,13 @@ std::string upper(std::string text) {
   return text;
 }
 
+/// A word for roff, whose line may end between alternatives.
+std::string breakable(std::string_view word) {
+  std::string result;
+  for (const char c : roff(word)) result += c == '|' ? "|\\:" : std::string(1, c);
+  return result;
+}
+
 /// The names of "-o, --output FILE" are bold, the rest is in italics.
 std::string item(const HelpRow& row) {
   std::string text = ".TP\n", gap;
@@ -43,7 +50,7 @@ std::string item(const HelpRow& row) {
     const char font = gap.empty() || word[0] == '-' ? 'B' : 'I';
     const bool comma = word.ends_with(',');
     if (comma) word.pop_back();
-    text += fmt::format("{}\\f{}{}\\fR{}", gap, font, roff(word), comma ? "," : "");
+    text += fmt::format("{}\\f{}{}\\fR{}", gap, font, breakable(word), comma ? "," : "");
   }
   return text + "\n" + filled(row.meaning);
 }

@@ -127,7 +127,8 @@ void add_rare(Command& command, OptimizeSettings& s) {
       command, "--save-every", s.save_every, kNotNegative,
       "Write the best mesh so far to OUT during the run, at most once in this many seconds. 0 writes every new one.");
   for (std::size_t i = first; i < command.options().size(); ++i) command.option_at(i).rare = true;
-  for (const char* name : {"--format", "--encoding", "--no-triangle-quality"}) command.option(name).rare = true;
+  for (const char* name : {"--format", "--cells", "--encoding", "--no-triangle-quality"})
+    command.option(name).rare = true;
 }
 
 /// Solvers by name, which --help-all lists.
