@@ -357,6 +357,16 @@ Outline outline_from(const py::dict& d) {
          "segment_tags: expected " + std::to_string(pairs.size()) + ", found " + std::to_string(tags.size()));
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) outline.segments.push_back({pairs[i], tags.data()[i]});
+  const auto faces = d["faces"].cast<Int32s>();
+  for (const std::int32_t segment : as_span<std::int32_t>(faces)) {
+    const auto i = static_cast<std::size_t>(std::int64_t{segment});
+    if (i >= outline.segments.size()) {
+      fail(ErrorCode::index_out_of_range, "faces: the number " + std::to_string(segment) +
+                                              " is of no segment; there are " +
+                                              std::to_string(outline.segments.size()));
+    }
+    outline.segments[i].as = LineKind::faces;
+  }
   const auto holes = d["holes"].cast<Doubles>();
   for (const Vec2 hole : as_span<Vec2>(holes)) outline.holes.push_back(hole);
   for (const auto& item : d["regions"]) {
@@ -389,8 +399,11 @@ Outline outline_from(const py::dict& d) {
 
 py::dict outline_to_dict(const Outline& outline) {
   std::vector<std::array<std::int32_t, 2>> ends;
-  std::vector<std::int32_t> tags;
-  for (const OutlineSegment& s : outline.segments) ends.push_back(s.ends), tags.push_back(s.tag);
+  std::vector<std::int32_t> tags, faces;
+  for (const OutlineSegment& s : outline.segments) {
+    if (s.as == LineKind::faces) faces.push_back(static_cast<std::int32_t>(ends.size()));
+    ends.push_back(s.ends), tags.push_back(s.tag);
+  }
   py::list regions, parts, rings;
   for (const OutlineRegion& r : outline.regions) {
     regions.append(py::make_tuple(r.at.x, r.at.y, r.region, to_python(r.size)));
@@ -405,7 +418,7 @@ py::dict outline_to_dict(const Outline& outline) {
   }
   return Record()("points", rows_of<double>(std::span<const Vec2>(outline.points)))("sizes", sizes)(
              "segments", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(ends)))(
-             "segment_tags", array_of<std::int32_t>(tags))(
+             "segment_tags", array_of<std::int32_t>(tags))("faces", array_of<std::int32_t>(faces))(
              "holes", rows_of<double>(std::span<const Vec2>(outline.holes)))("regions", regions)("parts", parts)(
              "rings", rings)("point_tags", rows_of_tags(outline.point_tags))(
              "further_tags", rows_of_tags(outline.further_tags))("groups", physical_names_to_python(outline.groups))(

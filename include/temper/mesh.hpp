@@ -155,8 +155,11 @@ class Mesh {
   /// The weighted vector P of a vertex. Precondition: the mesh lies on the sphere.
   [[nodiscard]] Vec3 weighted_vector(VertexId v) const { return as_vector(point(v)); }
   /// Says whether the user fixed the vertex at its place. (Boundary vertices stay without this flag.)
-  [[nodiscard]] bool is_fixed(VertexId v) const { return (record(v).flags & kFixed) != 0; }
+  [[nodiscard]] bool is_fixed(VertexId v) const { return (record(v).flags & (kFixed | kFrozen)) != 0; }
   void set_fixed(VertexId v, bool fixed);
+  /// Says whether the place and the weight of a vertex stay: a dual that must stay depends on them. It is fixed, too.
+  [[nodiscard]] bool is_frozen(VertexId v) const { return (record(v).flags & kFrozen) != 0; }
+  void set_frozen(VertexId v) { record(v).flags |= kFrozen; }
   /// Precondition: v is not isolated.
   [[nodiscard]] bool is_boundary(VertexId v) const { return !twin(outgoing(v)).valid(); }
   /// Says whether v is in no triangle: just added, or removed and still there until compact().
@@ -185,10 +188,20 @@ class Mesh {
   [[nodiscard]] bool is_unflippable(HalfedgeId h) const { return is_boundary(h) || is_constrained(h); }
   /// Marks the edge of h on both sides.
   void set_constrained(HalfedgeId h, bool constrained) { mark(h, constrained ? 1 : 0); }
-  /// Says whether the edge is the diagonal of a quadrilateral. Its two triangles are one cell, and it is constrained.
-  [[nodiscard]] bool is_diagonal(HalfedgeId h) const { return constrained_[h] == kDiagonal; }
+  /// Says whether the edge is a diagonal: of a quadrilateral, or of a polygon around the end of a face. It is
+  /// constrained and has no dual.
+  [[nodiscard]] bool is_diagonal(HalfedgeId h) const { return joins_halves(h) || is_joint(h); }
+  /// Says whether the edge is the diagonal of a quadrilateral. Its two triangles are one cell.
+  [[nodiscard]] bool joins_halves(HalfedgeId h) const { return constrained_[h] == kDiagonal; }
+  /// Says whether the edge is a diagonal of a polygon around the end of a face: both triangles have one orthocenter.
+  [[nodiscard]] bool is_joint(HalfedgeId h) const { return constrained_[h] == kJoint; }
   /// Marks a diagonal on both sides. The caller constrains the sides of the quadrilateral and fixes its corners.
   void set_diagonal(HalfedgeId h) { mark(h, kDiagonal); }
+  /// Says whether the dual of the edge is a face that must stay, such as a piece of a fault. The edge is constrained.
+  [[nodiscard]] bool is_face(HalfedgeId h) const { return constrained_[h] == kFace; }
+  /// Marks an edge with such a dual on both sides. keep_faces() of temper/detail/faces.hpp does the rest.
+  void set_face(HalfedgeId h) { mark(h, kFace); }
+  void set_joint(HalfedgeId h) { mark(h, kJoint); }
   /// Says whether h represents its edge. Each edge has one representative: the boundary halfedge, or the smaller of two
   /// twins.
   [[nodiscard]] bool is_edge_representative(HalfedgeId h) const { return !twin(h).valid() || h < twin(h); }
@@ -198,9 +211,10 @@ class Mesh {
   [[nodiscard]] std::array<VertexId, 3> corners(TriangleId t) const {
     return {corners_[halfedge(t, 0)], corners_[halfedge(t, 1)], corners_[halfedge(t, 2)]};
   }
-  /// Says whether t is half of a quadrilateral. No vertex is inserted there.
+  /// Says whether t is part of a polygon that stays: half of a quadrilateral, or at the end of a face. No vertex is
+  /// inserted there.
   [[nodiscard]] bool is_half(TriangleId t) const {
-    return is_diagonal(halfedge(t, 0)) || is_diagonal(halfedge(t, 1)) || is_diagonal(halfedge(t, 2));
+    return is_inner(halfedge(t, 0)) || is_inner(halfedge(t, 1)) || is_inner(halfedge(t, 2));
   }
   [[nodiscard]] std::int32_t region(TriangleId t) const { return regions_[t]; }
   void set_region(TriangleId t, std::int32_t region) { regions_.set(t, region, n_triangles()); }
@@ -249,8 +263,8 @@ class Mesh {
   friend class MeshEditor;
   friend class MeshPermuter;
 
-  static constexpr std::uint32_t kFixed = 1;
-  static constexpr std::uint8_t kDiagonal = 2;
+  static constexpr std::uint32_t kFixed = 1, kFrozen = 2;
+  static constexpr std::uint8_t kDiagonal = 2, kFace = 3, kJoint = 4;
 
   // 32 bytes: a vertex is one half of a cache line and never lies in two.
   struct alignas(kVertexStride) VertexRecord {
@@ -287,6 +301,7 @@ class Mesh {
   };
 
   void repair_outgoing();
+  [[nodiscard]] bool is_inner(HalfedgeId h) const { return constrained_[h] >= kDiagonal; }
   void mark(HalfedgeId h, std::uint8_t value) {
     constrained_.set(h, value, n_halfedges());
     if (twin(h).valid()) constrained_.set(twin(h), value, n_halfedges());
@@ -299,7 +314,7 @@ class Mesh {
   IdVector<HalfedgeId, VertexId> corners_;  // origin of each halfedge
   IdVector<HalfedgeId, HalfedgeId> twins_;  // invalid on the boundary
   // Most meshes have no constrained edge and a single region 0. This saves 14 bytes per vertex.
-  ZeroUntilSet<HalfedgeId, std::uint8_t> constrained_;  // 1, or kDiagonal
+  ZeroUntilSet<HalfedgeId, std::uint8_t> constrained_;  // 1, kDiagonal, kFace or kJoint
   ZeroUntilSet<TriangleId, std::int32_t> regions_;
 };
 

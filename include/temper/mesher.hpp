@@ -4,6 +4,7 @@
 // An optimization cannot change the boundary, so the mesher divides the boundary with care. Edges follow the size and
 // change their length slowly. If two pieces of the outline face each other, the edges are so short that a row of free
 // vertices fits between them. If triangles stay bad, the mesher divides the outline finer around them and starts again.
+// A line may become faces of power cells instead: then vertices lie on both sides of it, with weights that stay.
 // On the sphere segments are arcs of great circles. Without an outline the mesher places points all around the sphere.
 #pragma once
 
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -79,7 +81,7 @@ struct MesherOptions {
   std::function<void(const MeshEstimate&)> estimated = {};
 };
 
-/// A mesh edge that is part of a segment.
+/// A mesh edge that is part of a segment; or whose dual is, if the segment becomes faces: then Mesh::is_face() holds.
 struct MeshLine {
   VertexId a, b;
   std::int32_t tag = 0;
@@ -106,14 +108,20 @@ struct OutlineMesh {
   std::vector<std::string> warnings;      ///< Narrow places, and points that are lost
 };
 
+/// Makes lines become faces (LineKind): segments with these names or tags, and borders of regions with these names.
+/// Error: nothing has the name.
+[[nodiscard]] Expected<void> become_faces(Outline& outline, std::span<const std::string> names);
+
 /// Meshes the inside of an outline. Equal outlines and options give equal meshes, bit for bit. Points of the outline
-/// stay where they are. Points of no segment become fixed vertices. About O(n log n) per attempt.
+/// stay where they are, but those on faces are no vertices. Points of no segment become fixed vertices. About O(n log
+/// n) per attempt.
 ///
 /// Errors, with the outline's names:
 ///   - no points, indices of segment ends out of range, coordinates not finite or out of the range of exact arithmetic
 ///   - segments of zero length, segments that cross, parts that joins within `snap` leave nothing of
 ///   - nothing enclosed, holes or regions outside, parts that overlap,
 ///   - without joins: two points at one place, a domain that touches itself at a point
+///   - lines that cannot become faces, with the reason
 ///   - sizes that are not positive, or would make too many triangles for `most_triangles` or `memory`
 ///   - stopped, if the time limit or the observer ends the run before there is a mesh; later the best mesh so far is
 ///     returned

@@ -52,6 +52,8 @@ class Outline:
     twice. Away from it lengths grow by the grade."""
     rings: Sequence[tuple[Sequence[int], int]] = ()
     """Segments of each ring of polygons, and the ring around it, or −1 for shells. They only serve checks."""
+    faces: npt.ArrayLike | None = None
+    """Numbers of the segments that become faces of power cells, (f,) int. Others become edges of triangles."""
     _names: Any = dataclasses.field(default=None, repr=False)
     _degrees: Any = dataclasses.field(default=None, repr=False)
     """Projection, and the points before it."""
@@ -73,6 +75,7 @@ class Outline:
             "groups": [(int(dimension), int(tag), str(name)) for dimension, tag, name in self.groups],
             "sizes": [(int(a), int(b), float(size)) for a, b, size in self.sizes],
             "rings": [(_ints(list(s), 0, "rings").astype(np.int32), int(shell)) for s, shell in self.rings],
+            "faces": _ints(self.faces, 0, "faces").astype(np.int32),
             "names": self._names,
             "degrees": self._degrees,
         }

@@ -54,6 +54,7 @@ OTHERS = {
     "--no-rings": ("`draw_svg(near_coincident=False)`", ""),
     "--numbers": ("`draw_svg(vertex_numbers=True)`", ""),
     "--region-size": ("`mesh_outline(region_sizes=…)`", ""),
+    "--faces": ("`Outline.faces`", "`become_faces`"),
     "--sphere": ("`mesh_sphere`", "`mesh_sphere`"),
     "--coast": ("`mesh_sphere(coasts=…)`", "`SphereOutline::coasts`"),
     "--lines": ("`mesh_sphere(lines=…)`", "`SphereOutline::lines`"),

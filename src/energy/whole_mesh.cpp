@@ -21,9 +21,10 @@ struct Batch {
   std::size_t size = 0;
 };
 
-/// Calls visit with all triangles of a block, in batches. Erased ones are left out, and quadrilaterals, since nothing
-/// changes them. Returns how many of their halves are bad. Several batches are filled before the first is visited:
-/// reading eight numbers at once waits long for a number that has just been written.
+/// Calls visit with all triangles of a block, in batches. Erased ones are left out, and those that nothing changes:
+/// quadrilaterals, and triangles between frozen vertices. Returns how many of their halves are bad. Several batches are
+/// filled before the first is visited: reading eight numbers at once waits long for a number that has just been
+/// written.
 template <class Visit>
 std::size_t for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
   std::size_t bad_halves = 0;
@@ -40,7 +41,7 @@ std::size_t for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
   for (std::size_t i = block * kBlockSize; i < end; ++i) {
     const TriangleId t(i);
     if (mesh.is_erased(t)) continue;
-    if (mesh.is_half(t)) {
+    if (mesh.is_half(t) || stays(mesh, t)) {
       bad_halves += is_bad(mesh, t) ? 1 : 0;
       continue;
     }

@@ -12,7 +12,7 @@
 
 namespace temper {
 
-/// Triangles that are not well-centered, exact. Erased ones are not bad.
+/// Triangles for which is_bad() holds, exact.
 [[nodiscard]] std::size_t count_bad(const Mesh& mesh, Executor* executor);
 
 /// The number of bad triangles among the first n lanes.

@@ -29,9 +29,14 @@ namespace temper {
   }
   return true;
 }
-/// is_bad says whether triangle t is not well-centered, exactly. An erased triangle is not bad.
+/// stays says whether all corners of t keep their places and weights: nothing can improve t.
+[[nodiscard]] inline bool stays(const Mesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.corners(t);
+  return mesh.is_frozen(a) && mesh.is_frozen(b) && mesh.is_frozen(c);
+}
+/// is_bad says whether triangle t is not well-centered, exactly. An erased triangle is not bad, nor one that stays.
 [[nodiscard]] inline bool is_bad(const Mesh& mesh, TriangleId t) {
-  if (mesh.is_erased(t) || inlined::is_well_centered(mesh, t)) return false;
+  if (mesh.is_erased(t) || inlined::is_well_centered(mesh, t) || stays(mesh, t)) return false;
   return !mesh.is_half(t) || !is_centered_half(mesh, t);
 }
 /// bad_triangles lists the triangles for which is_bad holds, in ascending order.
@@ -60,7 +65,7 @@ namespace temper {
 /// Returns true if the mesh has a quadrilateral. O(n).
 [[nodiscard]] inline bool has_quadrilaterals(const Mesh& mesh) {
   for (const HalfedgeId h : mesh.halfedges()) {
-    if (mesh.is_diagonal(h)) return true;
+    if (mesh.joins_halves(h)) return true;
   }
   return false;
 }

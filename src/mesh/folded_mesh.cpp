@@ -15,7 +15,10 @@ FoldedMesh::FoldedMesh(const Mesh& mesh) : space_(mesh.space()), n_triangles_(me
     const bool is_zero = third == 0 && !std::signbit(third);
     if (!is_zero && thirds_.empty()) thirds_.resize(mesh.n_vertices());
     if (!thirds_.empty()) thirds_[v.index] = third;
-    if (mesh.is_fixed(v)) fixed_.push_back(v);
+    if (mesh.is_frozen(v))
+      frozen_.push_back(v);
+    else if (mesh.is_fixed(v))
+      fixed_.push_back(v);
   }
   constexpr std::size_t kBytesPerTriangle = 5;  // along a curve
   corners_.reserve(kBytesPerTriangle * n_triangles_);
@@ -28,8 +31,12 @@ FoldedMesh::FoldedMesh(const Mesh& mesh) : space_(mesh.space()), n_triangles_(me
     }
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(t, k);
-      if (mesh.is_diagonal(h))
+      if (mesh.joins_halves(h))
         diagonals_.push_back(h);
+      else if (mesh.is_face(h))
+        faces_.push_back(h);
+      else if (mesh.is_joint(h))
+        joints_.push_back(h);
       else if (mesh.is_constrained(h))
         constrained_.push_back(h);
     }
@@ -46,6 +53,7 @@ Mesh FoldedMesh::unfold(Executor* executor) const {
     mesh.set_point(v, {p.x, p.y, thirds_.empty() ? 0 : thirds_[v.index]});
   }
   for (const VertexId v : fixed_) mesh.set_fixed(v, true);
+  for (const VertexId v : frozen_) mesh.set_frozen(v);
   std::size_t at = 0;
   std::int64_t corner = 0;
   for (const HalfedgeId h : mesh.halfedges()) {
@@ -56,6 +64,8 @@ Mesh FoldedMesh::unfold(Executor* executor) const {
   MeshEditor(mesh).repair_outgoing();
   for (const HalfedgeId h : constrained_) mesh.set_constrained(h, true);
   for (const HalfedgeId h : diagonals_) mesh.set_diagonal(h);
+  for (const HalfedgeId h : faces_) mesh.set_face(h);
+  for (const HalfedgeId h : joints_) mesh.set_joint(h);
   for (std::size_t t = 0; t < regions_.size(); ++t) mesh.set_region(TriangleId(t), regions_[t]);
   return mesh;
 }

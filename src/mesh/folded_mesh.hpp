@@ -29,8 +29,8 @@ class FoldedMesh {
   std::vector<Vec2> places_;
   std::vector<double> thirds_;         // the third number of each vertex; empty if all are 0
   std::vector<std::uint8_t> corners_;  // each as the difference from one before
-  std::vector<VertexId> fixed_;
-  std::vector<HalfedgeId> constrained_, diagonals_;
+  std::vector<VertexId> fixed_, frozen_;
+  std::vector<HalfedgeId> constrained_, diagonals_, faces_, joints_;
   std::vector<std::int32_t> regions_;  // empty if all are 0
 };
 

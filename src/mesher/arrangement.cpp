@@ -179,11 +179,12 @@ void keep_odd(std::vector<std::int32_t>& values) {
   values.resize(kept);
 }
 
-std::vector<OutlineEdge> cut(const Snapped& snapped, const SegmentLabels& of) {
+std::vector<OutlineEdge> cut(const Outline& outline, const Snapped& snapped, const SegmentLabels& of) {
   std::vector<OutlineEdge> edges;
   edges.reserve(snapped.parts.size());
   for (const SegmentPart& part : snapped.parts) {
-    edges.push_back({part.ends, of.tags[part.segment], of.parts[part.segment], part.segment});
+    edges.push_back(
+        {part.ends, of.tags[part.segment], of.parts[part.segment], part.segment, outline.segments[part.segment].as});
   }
   return edges;
 }
@@ -205,6 +206,7 @@ std::vector<OutlineEdge> merged(const std::vector<OutlineEdge>& edges) {
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     if (first_of[i] == i) place[i] = result.size(), result.push_back({edges[i].ends, {}, {}, edges[i].segment});
     OutlineEdge& edge = result[place[first_of[i]]];
+    if (edges[i].as == LineKind::faces) edge.as = LineKind::faces;
     for (const std::int32_t tag : edges[i].tags) {
       if (std::find(edge.tags.begin(), edge.tags.end(), tag) == edge.tags.end()) edge.tags.push_back(tag);
     }
@@ -299,7 +301,7 @@ Expected<Arrangement> arrange(const Problem& problem, Deadline& deadline) {
   if (snapped.crossing) return crossing_error(problem, *snapped.crossing);
   const SegmentLabels labels = {parts_of_segments(problem.outline), tags_of_segments(problem.outline)};
   Arrangement result;
-  result.edges = merged(cut(snapped, labels));
+  result.edges = merged(cut(problem.outline, snapped, labels));
   if (Error error = check_kept(problem, result)) return *std::move(error);
   if (problem.is_closed()) {
     if (Error error = check_closed(problem, snapped.places, result.edges)) return *std::move(error);

@@ -18,17 +18,19 @@ struct OutlineEdge {
   std::vector<std::int32_t> tags;   ///< of its segments, each once, without 0
   std::vector<std::int32_t> parts;  ///< sorted: crossing the edge enters or leaves these parts, then rings
   std::uint32_t segment = 0;        ///< the first given one
+  LineKind as = LineKind::edges;    ///< faces if one of its segments becomes faces
 };
 
 struct Arrangement {
   static constexpr std::uint32_t kNoPoint = 0xffffffffu;
-  std::vector<Vec3> places;                  ///< first of points, in their order; then of crossings
-  std::vector<std::uint32_t> point;          ///< the first given point at each place, or kNoPoint
-  std::vector<std::int32_t> place_of_point;  ///< of each given point; -1 if it was left out
-  std::vector<std::int32_t> origin;          ///< of each place: itself, or the place that it was split from
-  std::vector<OutlineEdge> edges;            ///< in the order of the segments
-  std::vector<std::uint8_t> kept;            ///< of each part, then ring: does it have an edge?
-  std::vector<std::string> notes, warnings;  ///< on joins
+  static constexpr std::int32_t kOnFace = -2;  ///< the place of a point that is on a face, and no vertex
+  std::vector<Vec3> places;                    ///< first of points, in their order; then of crossings
+  std::vector<std::uint32_t> point;            ///< the first given point at each place, or kNoPoint
+  std::vector<std::int32_t> place_of_point;    ///< of each given point; -1 if it was left out, or kOnFace
+  std::vector<std::int32_t> origin;            ///< of each place: itself, or the place that it was split from
+  std::vector<OutlineEdge> edges;              ///< in the order of the segments
+  std::vector<std::uint8_t> kept;              ///< of each part, then ring: does it have an edge?
+  std::vector<std::string> notes, warnings;    ///< on joins
 
   [[nodiscard]] Vec3 place(std::int32_t i) const { return places[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::array<Vec3, 2> ends(std::size_t edge) const {

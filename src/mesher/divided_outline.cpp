@@ -59,6 +59,26 @@ std::vector<std::vector<std::int32_t>> neighbors(const Surface& surface, const s
   return result;
 }
 
+/// Says whether a line that becomes faces meets another line here, ends on it, or turns so much that a site serves both
+/// sides of the turn.
+bool is_joint_of_faces(const Surface& surface, const std::vector<Vec3>& points, std::size_t place,
+                       const std::vector<std::int32_t>& around, int faces) {
+  if (faces == 0 || around.size() < 2) return false;
+  if (around.size() > 2 || faces < 2) return true;
+  const auto direction = [&](std::size_t k) {
+    return surface.direction(points[place], points[static_cast<std::size_t>(around[k])]);
+  };
+  return dot(direction(0), direction(1)) > kSharedCosine;
+}
+
+std::vector<int> count_faces(const Arrangement& arrangement) {
+  std::vector<int> faces(arrangement.places.size(), 0);
+  for (const OutlineEdge& e : arrangement.edges) {
+    for (const std::int32_t end : e.ends) faces[static_cast<std::size_t>(end)] += e.as == LineKind::faces ? 1 : 0;
+  }
+  return faces;
+}
+
 bool is_sharp(const Surface& surface, const std::vector<Vec3>& points, std::size_t apex,
               const std::vector<std::int32_t>& around) {
   const auto direction = [&](std::size_t k) {
@@ -108,7 +128,11 @@ CornerRadii corner_radii(const Surface& surface, const Arrangement& arrangement,
   const std::vector<OutlineEdge>& edges = arrangement.edges;
   const auto around = neighbors(surface, points, edges);
   std::vector<std::uint8_t> sharp(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) sharp[i] = is_sharp(surface, points, i, around[i]) ? 1 : 0;
+  const std::vector<int> faces = count_faces(arrangement);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool is_joint = is_joint_of_faces(surface, points, i, around[i], faces[i]);
+    sharp[i] = is_joint || is_sharp(surface, points, i, around[i]) ? 1 : 0;
+  }
   const BoundingBoxTree tree = tree_of_edges(surface, arrangement);
   CornerRadii radii(points.size(), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -124,27 +148,45 @@ CornerRadii corner_radii(const Surface& surface, const Arrangement& arrangement,
   return radii;
 }
 
+CornerRadii within_size(const Arrangement& arrangement, CornerRadii corners, const GradedSize& size) {
+  for (const OutlineEdge& e : arrangement.edges) {
+    if (e.as != LineKind::faces) continue;
+    for (const std::int32_t end : e.ends) {
+      double& radius = corners[static_cast<std::size_t>(end)];
+      radius = std::min(radius, size(arrangement.place(end)));
+    }
+  }
+  return corners;
+}
+
 DividedOutline undivided(const Arrangement& arrangement) {
   DividedOutline whole{arrangement.places, {}};
   for (std::size_t e = 0; e < arrangement.edges.size(); ++e) {
     const auto [a, b] = arrangement.edges[e].ends;
     whole.pieces.push_back(
-        {{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)}, static_cast<std::uint32_t>(e)});
+        {{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)}, static_cast<std::uint32_t>(e), false});
   }
   return whole;
 }
 
 DividedOutline divide(const Arrangement& arrangement, const GradedSize& size, const CornerRadii& corners,
                       std::size_t most, Deadline& deadline) {
+  // A line that a face meets has its first site at half of the radius, and no division between.
+  constexpr double kBesideFaces = 1.3;
   const std::vector<Vec3>& points = arrangement.places;
   const std::vector<OutlineEdge>& edges = arrangement.edges;
+  const std::vector<int> faces = count_faces(arrangement);
   const Surface& surface = size.surface();
   DividedOutline divided{points, {}};
   for (std::size_t e = 0; e < edges.size() && divided.pieces.size() <= most && !deadline.stopped(); ++e) {
     const auto a = static_cast<std::uint32_t>(edges[e].ends[0]), b = static_cast<std::uint32_t>(edges[e].ends[1]);
     const SurfacePath path(surface, points[a], points[b]);
     const double whole = path.length();
-    const double first = corners[a], last = whole - corners[b];
+    const bool is_face = edges[e].as == LineKind::faces;
+    const auto radius = [&](std::uint32_t end) {
+      return corners[end] * (faces[end] > 0 && !is_face ? kBesideFaces : 1.0);
+    };
+    const double first = radius(a), last = whole - radius(b);
     std::vector<double> at;
     if (first > 0) at.push_back(first);
     for (const double t : divisions(SurfacePath(surface, path.at(first), path.at(last)), size,
@@ -156,10 +198,10 @@ DividedOutline divide(const Arrangement& arrangement, const GradedSize& size, co
     for (const double t : at) {
       const auto p = static_cast<std::uint32_t>(divided.points.size());
       divided.points.push_back(path.at(t));
-      divided.pieces.push_back({{from, p}, static_cast<std::uint32_t>(e)});
+      divided.pieces.push_back({{from, p}, static_cast<std::uint32_t>(e), is_face});
       from = p;
     }
-    divided.pieces.push_back({{from, b}, static_cast<std::uint32_t>(e)});
+    divided.pieces.push_back({{from, b}, static_cast<std::uint32_t>(e), is_face});
   }
   return divided;
 }

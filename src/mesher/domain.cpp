@@ -124,6 +124,22 @@ std::optional<InputError> split_touching(const Problem& problem, Domain& domain)
   return {};
 }
 
+/// The boundary of the domain stays edges. Lines alone are told of: a border of a region may be on the boundary.
+void keep_boundary_edges(Domain& domain) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < domain.arrangement.edges.size(); ++i) {
+    OutlineEdge& edge = domain.arrangement.edges[i];
+    const auto [left, right] = domain.areas.sides[i];
+    if (edge.as != LineKind::faces || (left != kOutside && right != kOutside)) continue;
+    edge.as = LineKind::edges;
+    n += edge.parts.empty() ? 1 : 0;
+  }
+  if (n > 0) {
+    domain.arrangement.notes.push_back("edges of the boundary that stay edges, although their line becomes faces: " +
+                                       std::to_string(n));
+  }
+}
+
 }  // namespace
 
 Expected<Domain> find_domain(const Problem& problem, Deadline& deadline) {
@@ -137,6 +153,7 @@ Expected<Domain> find_domain(const Problem& problem, Deadline& deadline) {
   if (!areas) return areas.error();
   Domain domain = {*std::move(arrangement), *std::move(areas)};
   leave_out_edges(domain);
+  keep_boundary_edges(domain);
   if (auto error = split_touching(problem, domain)) return *std::move(error);
   return domain;
 }

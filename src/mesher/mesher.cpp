@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "mesher/corridors.hpp"
 #include "mesher/domain.hpp"
 #include "mesher/estimate.hpp"
 #include "mesher/outline_mesh.hpp"
@@ -73,6 +74,8 @@ class Mesher {
     Expected<Domain> domain = find_domain(problem_, deadline_);
     if (!domain) return domain.error();
     domain_ = *std::move(domain);
+    if (auto error = check_faces(problem_, domain_)) return error;
+    warn_of_ends_on_faces(problem_, domain_);
     if (problem_.has_few_points()) {
       expected_ = 2 * static_cast<double>(domain_.arrangement.places.size());
       return {};
@@ -93,12 +96,12 @@ class Mesher {
 
   /// The triangulation of the outline alone.
   Expected<Triangulated> triangulate_undivided() {
-    return triangulated(undivided(domain_.arrangement), {}, "triangulated");
+    return triangulated(undivided(domain_.arrangement), {}, "triangulated", domain_);
   }
   /// `doing`: what the outline was, if it is time to stop.
   Expected<Triangulated> triangulated(const DividedOutline& divided, const std::vector<Vec3>& placed,
-                                      const std::string& doing) {
-    Expected<Triangulated> all = triangulate(problem_.surface, divided, placed, domain_.areas.sides, deadline_);
+                                      const std::string& doing, const Domain& domain) {
+    Expected<Triangulated> all = triangulate(problem_.surface, divided, placed, domain.areas.sides, deadline_);
     if (deadline_.stopped()) return stopped_while(doing);
     return all ? std::move(all) : too_fine_for(all.error());
   }
@@ -166,7 +169,7 @@ class Mesher {
     for (int round = 0; round < kRounds; ++round) {
       if (deadline_.stopped()) return stopped_while("divided");
       if (divided.pieces.size() > most) return too_many(narrow());
-      const Expected<Triangulated> all = triangulated(divided, {}, "divided");
+      const Expected<Triangulated> all = triangulated(divided, {}, "divided", domain_);
       if (!all) return all.error();
       const NarrowPlaces found = narrow_places(divided, *all, sizing_.size(problem_), deadline_);
       add(found, sizing_);
@@ -178,6 +181,20 @@ class Mesher {
     return divided;
   }
 
+  /// Divides the outline, and lays corridors along faces, shorter until they leave each other room.
+  Expected<Laid> lay() {
+    constexpr int kRounds = 12;  // of pieces 0.7 times as long: where that is not enough, angles are too small
+    for (int round = 0;; ++round) {
+      Expected<DividedOutline> divided = resolve();
+      if (!divided) return divided.error();
+      if (!has_faces(domain_)) return Laid{*std::move(divided), {}, {}};
+      Laid laid = lay_corridors(problem_, domain_, *divided);
+      if (laid.too_long.empty()) return laid;
+      if (round == kRounds) return no_room_for_faces(problem_, domain_, laid.too_long.front().at);
+      make_shorter(laid.too_long, sizing_);
+    }
+  }
+
   /// Narrow places may make many more pieces than the sizes alone; more than this is a mistake in the outline.
   [[nodiscard]] std::size_t most_pieces() const {
     constexpr double kTimes = 20, kAtLeast = 50'000;
@@ -185,24 +202,26 @@ class Mesher {
     return static_cast<std::size_t>(std::min(kAtLeast + kTimes * pieces, most_triangles(options_)));
   }
 
-  Expected<OutlineMesh> make(DividedOutline divided) {
+  Expected<OutlineMesh> make(Laid laid) {
+    const Domain& domain = laid.divided.corridors.polygons.empty() ? domain_ : laid.domain;
+    DividedOutline& divided = laid.divided;
     const auto most_points = static_cast<std::size_t>(most_triangles(options_) / 2);  // two triangles per vertex
     deadline_.begin("placing points", expected_ / 2);
-    std::vector<Vec3> placed = place_points(divided, domain_.areas, sizing_.size(problem_), most_points, deadline_);
+    std::vector<Vec3> placed = place_points(divided, domain.areas, sizing_.size(problem_), most_points, deadline_);
     if (placed.size() >= most_points) return too_many(narrow());
     deadline_.begin("triangulating",
                     static_cast<double>(divided.points.size() + placed.size() + divided.pieces.size()));
-    Expected<Triangulated> all = triangulated(divided, placed, "filled with points");
+    Expected<Triangulated> all = triangulated(divided, placed, "filled with points", domain);
     if (!all) return all.error();
-    return build({std::move(divided), std::move(placed), *std::move(all)});
+    return build({std::move(divided), std::move(placed), *std::move(all)}, domain);
   }
 
-  Expected<OutlineMesh> build(const Filled& filled) {
+  Expected<OutlineMesh> build(const Filled& filled, const Domain& domain) {
     deadline_.begin("building the mesh");
-    const std::optional<Inside> inside = find_inside(domain_, filled);
+    const std::optional<Inside> inside = find_inside(domain, filled);
     if (deadline_.ask()) return stopped_while("made a mesh");
     if (!inside) return too_coarse(problem_);
-    Expected<OutlineMesh> made = build_inside(problem_, domain_, filled, *inside, deadline_);
+    Expected<OutlineMesh> made = build_inside(problem_, domain, filled, *inside, deadline_);
     if (deadline_.stopped()) return stopped_while("made a mesh");
     if (!made) return too_fine_for(made.error());
     if (std::string text = narrow(); !text.empty()) made->warnings.push_back(std::move(text));
@@ -211,14 +230,14 @@ class Mesher {
   }
 
   Expected<OutlineMesh> attempt() {
-    Expected<DividedOutline> divided = resolve();
-    if (!divided) return divided.error();
+    Expected<Laid> laid = lay();
+    if (!laid) return laid.error();
     if (sizing_.sources.size() > counted_sources_) {  // narrow places and bad triangles have smaller sizes
       if (auto error = count_expected()) return *error;
       if (auto error = check_expected()) return *error;
       tell_estimate();
     }
-    Expected<OutlineMesh> made = make(*std::move(divided));
+    Expected<OutlineMesh> made = make(*std::move(laid));
     if (!made || !options_.optimize) return made;
     OptimizeOptions options = *options_.optimize;
     // New vertices on the outline cure what no vertex inside does. On the sphere only another division makes them.
@@ -254,7 +273,7 @@ class Mesher {
   Expected<OutlineMesh> few_points() {
     Expected<Triangulated> alone = triangulate_undivided();
     if (!alone) return alone.error();
-    Expected<OutlineMesh> made = build({undivided(domain_.arrangement), {}, *std::move(alone)});
+    Expected<OutlineMesh> made = build({undivided(domain_.arrangement), {}, *std::move(alone)}, domain_);
     if (!made) return made;
     if (const auto error = improve(*made, options_for_few(options_))) return *error;
     return made;

@@ -8,6 +8,7 @@
 #include "generate/triangulation.hpp"
 #include "mesh/input_positions.hpp"
 #include "mesh/stoppable_build.hpp"
+#include "mesher/face_polygons.hpp"
 
 namespace temper::mesher {
 namespace {
@@ -42,8 +43,9 @@ void number_points(const Problem& problem, const Arrangement& arrangement, const
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
     const std::int32_t v = arrangement.place_of_point[i] < 0 ? -1 : inside.vertex[place_of(arrangement, i)];
     if (v >= 0) made.vertex_of_point[i] = VertexId(static_cast<std::size_t>(v));
-    outside += v < 0 ? 1 : 0;
-    if (v < 0 && is_alone[i] != 0) {
+    const bool is_outside = v < 0 && arrangement.place_of_point[i] != Arrangement::kOnFace;
+    outside += is_outside ? 1 : 0;
+    if (is_outside && is_alone[i] != 0) {
       made.warnings.push_back(problem.names.point(i) + " at " + problem.text(problem.points[i]) +
                               " is outside, and not in the mesh");
     }
@@ -78,7 +80,9 @@ void note_lost_groups(const Outline& outline, OutlineMesh& made) {
 void fix_points(const Outline& outline, const Arrangement& arrangement, OutlineMesh& made) {
   std::vector<std::uint8_t> known(arrangement.places.size(), 0);  // on an edge, or marked
   for (const OutlineEdge& e : arrangement.edges) {
-    for (const std::int32_t end : e.ends) known[static_cast<std::size_t>(end)] = 1;
+    for (const std::int32_t end : e.ends) {
+      if (end >= 0) known[static_cast<std::size_t>(end)] = 1;  // else it is on a face
+    }
   }
   const auto mark = [&](std::size_t point, std::int32_t tag) {
     const VertexId v = made.vertex_of_point[point];
@@ -93,13 +97,6 @@ void fix_points(const Outline& outline, const Arrangement& arrangement, OutlineM
   made.groups = outline.groups;
   note_lost_groups(outline, made);
 }
-
-/// Triangles and constrained edges of a mesh, as Mesh::build takes them.
-struct Connectivity {
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::int32_t> regions;
-  std::vector<std::array<std::int32_t, 2>> constrained;
-};
 
 /// Ends early when it is time to stop.
 void add_triangles(const Domain& domain, const Triangulated& all, const Inside& inside, Connectivity& result,
@@ -121,6 +118,7 @@ std::vector<MeshLine> add_lines(const Domain& domain, const DividedOutline& divi
   for (const Piece& piece : divided.pieces) {
     const auto [left, right] = domain.areas.sides[piece.edge];
     if (left == kOutside && right == kOutside) continue;
+    if (domain.arrangement.edges[piece.edge].as == LineKind::faces) continue;  // a side of a polygon
     const std::int32_t a = inside.vertex[piece.ends[0]], b = inside.vertex[piece.ends[1]];
     if (left != kOutside && right != kOutside) result.constrained.push_back({a, b});
     const VertexId from(static_cast<std::size_t>(a)), to(static_cast<std::size_t>(b));
@@ -181,6 +179,9 @@ std::optional<Inside> find_inside(const Domain& domain, const Filled& filled) {
       inside.vertex[v.index] = 0;
     }
   }
+  for (const auto& polygon : divided.corridors.polygons) {
+    for (const std::uint32_t i : polygon) inside.vertex[i] = 0;
+  }
   for (std::size_t i = 0; i < n; ++i) {
     if (inside.vertex[i] < 0) continue;
     inside.vertex[i] = static_cast<std::int32_t>(inside.places.size());
@@ -196,6 +197,8 @@ Expected<OutlineMesh> build_inside(const Problem& problem, const Domain& domain,
   add_triangles(domain, filled.all, inside, connectivity, deadline);
   OutlineMesh result;
   result.lines = add_lines(domain, filled.divided, inside, connectivity);
+  FacePolygons polygons(domain, filled.divided.corridors, inside);
+  polygons.add(connectivity);
   std::vector<std::uint32_t> points;
   for (const std::uint32_t p : inside.outline_places) points.push_back(domain.arrangement.point[p]);
   const MeshNames names(problem.names, points);
@@ -205,12 +208,14 @@ Expected<OutlineMesh> build_inside(const Problem& problem, const Domain& domain,
   input.triangles = connectivity.triangles;
   input.regions = connectivity.regions;
   input.constrained_edges = connectivity.constrained;
+  input.weights = polygons.weights();
   input.names = &names;
   input.executor = problem.hooks.executor;
   if (deadline.ask()) return generate::stopped_error();
   Expected<BuiltMesh> built = build_or_stop(input, [&deadline] { return deadline.ask(); });
   if (!built) return built.error();
   result.mesh = std::move(built->mesh);
+  polygons.settle(result.mesh, result.lines);
   result.notes = domain.arrangement.notes;
   result.warnings = domain.arrangement.warnings;
   if (domain.areas.warning) result.warnings.push_back(*domain.areas.warning);

@@ -21,6 +21,8 @@ namespace {
 
 // Two rows of equilateral triangles across a gap have edges of 0.577 of it.
 constexpr double kOfGap = 0.6;
+// Sites beside two faces are at a third of the gap: no free vertex has to be between them.
+constexpr double kOfGapOfFaces = 0.9;
 // A size below this part of the present one is a new one.
 constexpr double kLess = 0.9;
 
@@ -30,9 +32,10 @@ class Narrow {
       : divided_(divided), mesh_(triangulated.mesh), triangulated_(triangulated), size_(size) {
     around_.resize(divided.points.size());
     edge_.resize(divided.points.size());
+    is_on_face_.resize(divided.points.size());
     for (std::size_t i = 0; i < edge_.size(); ++i) edge_[i] = Gap::kPoint + static_cast<std::uint32_t>(i);
     for (const Piece& p : divided.pieces) {
-      for (const std::uint32_t end : p.ends) edge_[end] = p.edge;
+      for (const std::uint32_t end : p.ends) edge_[end] = p.edge, is_on_face_[end] |= p.is_face ? 1 : 0;
       around_[p.ends[0]].push_back(p.ends[1]);
       around_[p.ends[1]].push_back(p.ends[0]);
     }
@@ -56,6 +59,10 @@ class Narrow {
   [[nodiscard]] bool helps(VertexId v) const { return v.index >= divided_.points.size(); }
   [[nodiscard]] Vec3 at(VertexId v) const { return divided_.points[v.index]; }
   [[nodiscard]] bool isolated(VertexId v) const { return around_[v.index].empty(); }
+  [[nodiscard]] double size_in(double gap, VertexId one, VertexId other) const {
+    if (isolated(one) || isolated(other)) return gap;
+    return (is_on_face_[one.index] != 0 && is_on_face_[other.index] != 0 ? kOfGapOfFaces : kOfGap) * gap;
+  }
 
   void add(Vec3 p, double size) {
     if (size < kLess * size_(p)) result_.sources.push_back({p, size});
@@ -81,7 +88,7 @@ class Narrow {
     const VertexId a = mesh_.origin(h), b = mesh_.target(h);
     if (helps(a) || helps(b) || neighbors(a, b)) return;
     const double gap = length(at(b) - at(a));
-    const double size = isolated(a) || isolated(b) ? gap : kOfGap * gap;
+    const double size = size_in(gap, a, b);
     note(gap, at(a), edge_[a.index], edge_[b.index]);
     add(at(a), size);
     add(at(b), size);
@@ -98,7 +105,9 @@ class Narrow {
     if (part <= 0 || part >= 1) return;  // the gap is that to a or b
     const Vec3 foot = at(a) + part * ab;
     const double gap = length(at(c) - foot);
-    const double size = isolated(c) ? gap : kOfGap * gap;
+    const double size = divided_.pieces[triangulated_.piece[h]].is_face ? size_in(gap, a, c)
+                        : isolated(c)                                   ? gap
+                                                                        : kOfGap * gap;
     note(gap, at(c), divided_.pieces[triangulated_.piece[h]].edge, edge_[c.index]);
     add(foot, size);
     add(at(c), size);
@@ -109,7 +118,8 @@ class Narrow {
   const Triangulated& triangulated_;
   const GradedSize& size_;
   std::vector<std::vector<std::uint32_t>> around_;
-  std::vector<std::uint32_t> edge_;  // of each point, as the sides of a gap
+  std::vector<std::uint32_t> edge_;       // of each point, as the sides of a gap
+  std::vector<std::uint8_t> is_on_face_;  // of each point
   NarrowPlaces result_;
 };
 
@@ -240,6 +250,7 @@ class Placement {
       boxes.push_back(box_around(surface_, divided.points[p.ends[0]], divided.points[p.ends[1]]));
     tree_ = BoundingBoxTree(boxes);
     for (const Vec3 p : divided.points) grid_.add(p, size(p));
+    for (const Vec3 p : divided.corridors.points) grid_.add(p, size(p));
   }
 
   std::vector<Vec3> run(std::size_t most) {

@@ -67,7 +67,8 @@ Sizing first_sizing(const Problem& problem, const Domain& domain) {
   for (const OutlineSize& s : problem.outline.sizes)
     add_sources(problem, {problem.point(s.points[0]), problem.point(s.points[1])}, s.size, sources);
   if (problem.options.field) grade_field(problem, *problem.options.field, sources);
-  sizing.corners = corner_radii(problem.surface, domain.arrangement, problem.wanted.most);
+  sizing.corners = within_size(
+      domain.arrangement, corner_radii(problem.surface, domain.arrangement, problem.wanted.most), sizing.size(problem));
   return sizing;
 }
 
@@ -79,6 +80,17 @@ void refine_around_bad(const Problem& problem, const Mesh& mesh, Sizing& sizing)
       const Vec3 p = problem.surface.place(mesh.point(v));
       sizing.sources.push_back({p, kSmaller * now(p)});
     }
+  }
+}
+
+void make_shorter(const std::vector<LongPieces>& pieces, Sizing& sizing) {
+  constexpr double kShorter = 0.7;
+  for (const LongPieces& at : pieces) {
+    // At a corner the radius decides. Smaller sizes there would make the gaps beside it smaller, and so on.
+    if (at.place < sizing.corners.size() && sizing.corners[at.place] > 0)
+      sizing.corners[at.place] = std::min(sizing.corners[at.place], kShorter * at.length);
+    else
+      sizing.sources.push_back({at.at, kShorter * at.length});
   }
 }
 

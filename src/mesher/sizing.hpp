@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "mesher/corridors.hpp"
 #include "mesher/domain.hpp"
 #include "mesher/placement.hpp"
 
@@ -27,6 +28,9 @@ struct Sizing {
 
 /// Makes sizes around the triangles that stay bad smaller.
 void refine_around_bad(const Problem& problem, const Mesh& mesh, Sizing& sizing);
+
+/// Makes pieces that are too long for faces shorter.
+void make_shorter(const std::vector<LongPieces>& pieces, Sizing& sizing);
 
 /// Adds what one round found at narrow places.
 void add(const NarrowPlaces& narrow, Sizing& sizing);

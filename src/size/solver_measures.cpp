@@ -136,7 +136,7 @@ FlowCell flow_cell_of(const Mesh& mesh, TriangleId t, const WeightedPoint& near)
   const auto has_neighbor = [&](HalfedgeId h) { return mesh.twin(h).valid(); };
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k), other = mesh.twin(h);
-    if (!mesh.is_diagonal(h) || !other.valid()) continue;
+    if (!mesh.joins_halves(h) || !other.valid()) continue;
     const HalfedgeId next = Mesh::next(h), last = Mesh::prev(h), first = Mesh::next(other), second = Mesh::prev(other);
     return flow_cell({at(mesh.origin(first)), at(mesh.origin(second)), at(mesh.origin(next)), at(mesh.origin(last))},
                      {has_neighbor(first), has_neighbor(second), has_neighbor(next), has_neighbor(last)});

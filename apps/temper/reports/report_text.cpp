@@ -200,7 +200,7 @@ TextStyle text_style() { return {utf8_terminal(), output_width()}; }
 
 std::size_t count_quadrilaterals(const Mesh& mesh) {
   std::size_t n = 0;
-  for (const HalfedgeId h : mesh.halfedges()) n += mesh.is_diagonal(h) && mesh.is_edge_representative(h) ? 1 : 0;
+  for (const HalfedgeId h : mesh.halfedges()) n += mesh.joins_halves(h) && mesh.is_edge_representative(h) ? 1 : 0;
   return n;
 }
 

@@ -44,7 +44,7 @@ constexpr OutputKind kMeshOutputs[] = {kReportKind, kPictureKind};
 
 struct MeshSettings {
   TimeLimit since;
-  std::string input, coast, lines, size, size_data, from_depth, projection, region_sizes;
+  std::string input, coast, lines, size, size_data, from_depth, projection, region_sizes, faces;
   std::string target = std::string(targets()[0].name);
   MeshOutput output;
   std::vector<std::string> write;
@@ -98,6 +98,10 @@ void add_sizes(Command& command, MeshSettings& s) {
   command.add_flag("--split-crossings", s.options.split_crossings,
                    "Divide lines where they cross each other or the boundary, and leave out what is outside. Without "
                    "this flag, crossings are errors.");
+  add_text(command, "--faces", "NAME,...", s.faces,
+           "Lines with these names or tags become faces of power cells, not edges of triangles: faults and barriers. "
+           "With the name of a region, its borders become faces.")
+      .excludes = "--sphere";
   add_text(command, "--projection", "NAME[:lon,lat]", s.projection,
            "Map from longitude and latitude to meters: stereographic, mercator or transverse-mercator about this "
            "center. Without a center, the middle of the points is used. 'none' uses degrees as coordinates of a plane.")
@@ -142,6 +146,7 @@ void add_options(Command& command, MeshSettings& s) {
                     "  temper mesh lake.poly -o few.vtu --points few --time-limit 20\n"
                     "  temper mesh lake.poly -o lake.msh --size 0.05 --grade 0.15 --write lake.svg\n"
                     "  temper mesh plan.poly -o plan.vtu --size 1 --region-size 2,0.25\n"
+                    "  temper mesh valley.geojson -o valley.vtu --size 100 --faces fault --for vertex\n"
                     "  temper mesh coast.geojson -o coast.vtu --size 2000 --projection stereographic\n"
                     "  temper mesh basin.msh -o basin.vtu --size 500 --projection transverse-mercator:9,0\n"
                     "  temper mesh --sphere -o ocean.vtu --size 500000 --coast land.geojson --lines rivers.geojson\n",
@@ -308,6 +313,7 @@ Result mesh_plane(const MeshSettings& s, Executor* executor) {
   Result result;
   result.inputs.push_back({"outline", read_outline_file(s.input)});
   io::OutlineFile& input = result.inputs[0].file;
+  if (!s.faces.empty()) or_fail(become_faces(input.outline, separated(s.faces)));
   result.map = take_to_plane(s, input);
   MesherOptions options = s.options;
   if (options.points == MeshPoints::few) {

@@ -425,7 +425,19 @@ Exit find(const WeightsSettings& s, InputOf<Subject>& input, const typename Subj
   return end(s, record, outputs);
 }
 
+/// Faces on lines need the weights that they have.
+void refuse_faces(const Input& input) {
+  const Mesh& mesh = input.mesh();
+  for (const VertexId v : mesh.vertices()) {
+    if (!mesh.is_frozen(v)) continue;
+    throw Failure(Exit::bad_input, input.path +
+                                       ": faces of the mesh lie on lines, and other weights would move them. Next: "
+                                       "temper optimize, which keeps them, or leave out --output");
+  }
+}
+
 Exit run(WeightsSettings& s, Input& input, Outputs& outputs) {
+  if (!s.output.path.empty()) refuse_faces(input);
   if (s.zero) return drop(s, input, outputs);
   if (s.options.constraints == Constraints::regular) s.options.edges = prescribed_edges(s.edges, input);
   const std::optional<ConnectivityReport> search = searched(s, input, *clp_solver());

@@ -24,9 +24,16 @@ struct PhysicalName {
   std::string name;
 };
 
+/// What a line becomes in a mesh.
+enum class LineKind : std::uint8_t {
+  edges,  ///< Edges of triangles: centers of power cells lie on the line
+  faces,  ///< Faces of power cells: centers lie on both sides. Only inside the domain, in the plane
+};
+
 struct OutlineSegment {
   std::array<std::int32_t, 2> ends = {};  ///< Numbers of its end points, from 0
-  std::int32_t tag = 0;                   ///< Boundary marker; edges of the segment carry it
+  std::int32_t tag = 0;                   ///< Boundary marker; edges of the segment, or of its faces, carry it
+  LineKind as = LineKind::edges;
 };
 
 /// A tag of a point or of a segment, beside those that it has.

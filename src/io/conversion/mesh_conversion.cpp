@@ -21,6 +21,7 @@
 #include "io/text/file_names.hpp"
 #include "io/text/names.hpp"
 #include "io/text/values.hpp"
+#include "temper/detail/faces.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
@@ -163,6 +164,7 @@ class MeshMaker {
     take_edge_lines();
     constrain_lines();
     keep_quadrilaterals();
+    keep_flagged_faces();
     fix_ends_of_tags();
     fix_marked_points();
     return std::move(loaded_);
@@ -317,6 +319,17 @@ class MeshMaker {
         }
       }
     }
+  }
+  /// Faces stay as they are: the weights and places around them, too.
+  void keep_flagged_faces() {
+    const DataArray* const data = find(file_.lines.data, kFace);
+    const auto flags = data == nullptr || data->components != 1 ? std::nullopt : to_int32(data->values);
+    if (!flags || flags->size() != file_.lines.size()) return;
+    std::vector<HalfedgeId> faces;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      if ((*flags)[i] == 1 && edges_[i].valid() && !loaded_.mesh.is_boundary(edges_[i])) faces.push_back(edges_[i]);
+    }
+    keep_faces(loaded_.mesh, faces);
   }
   /// Fixes points of straight pieces of the boundary if tagged lines end there or the tag changes. If such a point
   /// slid, the user's groups would change their shape.

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "io/conversion/globe.hpp"
+#include "io/conversion/known_arrays.hpp"
 #include "io/conversion/update.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/names.hpp"
@@ -320,13 +321,15 @@ void warn_of_losses(const WriteJob& job) {
   if (const std::size_t n = lost(kQuadrilaterals) ? quadrilaterals_of(f).size() : 0; n > 0)
     job.warn(n, n == 1 ? " quadrilateral is" : " quadrilaterals are",
              " written as two triangles each, as temper writes no quadrilaterals in ", row.description);
+  if (lost(kLineData) && find(f.lines.data, kFace) != nullptr)
+    job.warn("faces on lines are", has_no_place_for(job, "them"), ", and will not stay when this file is optimized");
   if (lost(kMarkedPoints) && !f.marked_points.empty()) job.warn("marked points are", has_no_place_for(job, "them"));
   for (const auto& [content, name] : kKindsOfArrays) {
     const bool of_faces = tets && content == kCellData;  // a format with data of lines has data of faces
     if (!lost(of_faces ? kLineData : content)) continue;
     std::vector<std::string_view> names;
     for (const DataArray& a : data_of(f, content)) {
-      if (a.name == kQuadrilateral) continue;
+      if (a.name == kQuadrilateral || (a.name == kFace && content == kLineData)) continue;
       if (row.details.keeps == nullptr || !row.details.keeps(content, a)) names.push_back(a.name);
     }
     warn_of_arrays(job, of_faces ? "face data" : name, names);

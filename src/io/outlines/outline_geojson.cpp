@@ -1,10 +1,10 @@
 // GeoJSON (RFC 7946): polygons become parts, lines stay inside as constrained edges, points as fixed vertices.
 //
-// Equal positions are one point, so polygons that share a piece of boundary share its edges. The reader uses four
+// Equal positions are one point, so polygons that share a piece of boundary share its edges. The reader uses five
 // properties of a feature: "region" is a number (without it features count from 1 when there are several). "size" is
 // the edge length inside, on its lines or at its points, "tag" the tag of its points and of the edges on its lines.
-// "name" names their group, see NamedElements. Positions are longitude and latitude, unless a crs member of an older
-// file names another system.
+// "name" names their group, see NamedElements. "as" says what its lines or borders become: "edges" or "faces".
+// Positions are longitude and latitude, unless a crs member of an older file names another system.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,6 +47,7 @@ struct Feature {
   std::optional<std::int32_t> region, tag;
   std::optional<double> size;
   std::string group;  ///< the property "name"
+  LineKind as = LineKind::edges;
 };
 
 /// The name without blanks at its ends, which formats of text cannot keep, and without control characters.
@@ -156,11 +157,22 @@ class GeoJsonReader {
           fail_at(*size, ErrorCode::syntax, name, ": expected a size above 0, found ", size->number);
         about.size = size->number;
       }
+      about.as = line_kind(*properties, name);
     }
     const JsonValue* shape = value.find("geometry");
     if (shape == nullptr || shape->type == Type::null) return;  // allowed: a feature without a place
     geometry(*shape, about);
     warn_of_idle(*shape, about);
+  }
+
+  [[nodiscard]] LineKind line_kind(const JsonValue& properties, const std::string& name) const {
+    const JsonValue* as = properties.find("as");
+    if (as == nullptr || as->type == Type::null) return LineKind::edges;
+    const std::string_view word = properties.text("as");
+    if (word != "edges" && word != "faces")
+      fail_at(*as, ErrorCode::syntax, name, ": expected \"edges\" or \"faces\" as \"as\", found ",
+              as->type == Type::string ? in_quotes(word) : std::string(describe(*as)));
+    return word == "faces" ? LineKind::faces : LineKind::edges;
   }
 
   void warn_at(const JsonValue& value, const std::string& message) {
@@ -173,6 +185,8 @@ class GeoJsonReader {
     const bool polygon = type == "Polygon" || type == "MultiPolygon" || type == "GeometryCollection";
     if (about.region && !polygon)
       warn_at(shape, text(about.name, ": 'region' is for polygons and has no effect on a ", type));
+    if (about.as == LineKind::faces && type.ends_with("Point"))
+      warn_at(shape, text(about.name, ": 'as' is for lines and polygons and has no effect on a ", type));
   }
 
   std::optional<std::int32_t> integer(const JsonValue& properties, std::string_view key,
@@ -292,7 +306,7 @@ class GeoJsonReader {
         ++dropped_;
         continue;
       }
-      o.segments.push_back({{from, to}, about.tag.value_or(0)});
+      o.segments.push_back({{from, to}, about.tag.value_or(0), about.as});
       document_.names->segment_lines.push_back(positions[i - 1].line);
       from = to;
     }

@@ -61,7 +61,7 @@ class GisReader {
     if (shape == nullptr) return;
     JsonValue value = json(Type::object), properties = json(Type::object);
     value.string = text("feature ", gdal_->OGR_F_GetFID(feature), " of ", layer);
-    constexpr std::array<std::string_view, 4> kKeptNames = {"name", "region", "size", "tag"};
+    constexpr std::array<std::string_view, 5> kKeptNames = {"as", "name", "region", "size", "tag"};
     for (int i = 0; i < gdal_->OGR_F_GetFieldCount(feature); ++i) {
       if (gdal_->OGR_F_IsFieldSetAndNotNull(feature, i) == 0) continue;
       void* const field = gdal_->OGR_F_GetFieldDefnRef(feature, i);

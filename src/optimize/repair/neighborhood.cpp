@@ -110,6 +110,7 @@ void copy_triangles(const WorkingCopy& work, const std::vector<TriangleId>& tria
       around.vertices.push_back(v);
       edit.add_vertex(mesh.point(v));
       around.mesh.set_fixed(entry->second, mesh.is_fixed(v));
+      if (mesh.is_frozen(v)) around.mesh.set_frozen(entry->second);
       if (const DividedEdge* edge = work.divided_edge(v)) around.divided.emplace(entry->second, *edge);
     }
     return entry->second;
@@ -126,7 +127,9 @@ void copy_edges(const Mesh& mesh, const std::vector<TriangleId>& triangles, Neig
   for (const HalfedgeId h : around.mesh.halfedges()) {
     const HalfedgeId whole(3 * std::size_t{triangles[h.index / 3].index} + h.index % 3);
     around.mesh.set_constrained(h, mesh.is_constrained(whole));
-    if (mesh.is_diagonal(whole)) around.mesh.set_diagonal(h);
+    if (mesh.joins_halves(whole)) around.mesh.set_diagonal(h);
+    if (mesh.is_face(whole)) around.mesh.set_face(h);
+    if (mesh.is_joint(whole)) around.mesh.set_joint(h);
     const HalfedgeId twin = mesh.twin(whole);
     if (!twin.valid()) continue;
     const auto at = std::lower_bound(triangles.begin(), triangles.end(), Mesh::triangle(twin));
@@ -145,6 +148,7 @@ void copy_edges(const Mesh& mesh, const std::vector<TriangleId>& triangles, Neig
 void complete_vertices(const Mesh& mesh, const std::vector<TriangleId>& triangles, Neighborhood& around) {
   MeshEditor edit(around.mesh);
   around.frozen.assign(around.vertices.size(), 0);
+  for (const VertexId v : around.mesh.vertices()) around.frozen[v.index] = around.mesh.is_frozen(v) ? 1 : 0;
   for (const HalfedgeId h : around.mesh.halfedges()) edit.set_outgoing(around.mesh.origin(h), h);
   for (const VertexId v : around.mesh.vertices()) {
     edit.set_outgoing(v, canonical_outgoing(around.mesh, around.mesh.outgoing(v)));

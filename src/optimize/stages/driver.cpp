@@ -205,7 +205,9 @@ void Driver::shift_weights_to_anchor() {
   if (!anchor.valid()) return;  // removed: the choice of the constant is free
   const double shift = mesh_.weight(anchor);
   const IdVector<VertexId, WeightedPoint> before = points();
-  for (const VertexId v : mesh_.vertices()) set_weight(v, mesh_.space().weight(before[v]) - shift);
+  const Space& space = mesh_.space();
+  for (const VertexId v : mesh_.vertices())
+    set_point(v, space.with_weight(mesh_.point(v), space.weight(before[v]) - shift));
   if (settings_.policy.keeps_connectivity() || settings_.policy.defers_flips() || flipper_.restore_all()) return;
   // Rounding may hide a vertex that was nearly hidden. Then the shift is undone.
   for (const VertexId v : mesh_.vertices()) set_point(v, before[v]);
@@ -218,7 +220,9 @@ void Driver::set_point(VertexId v, const WeightedPoint& p) {
   recorder_.placed(v, from, p, kNoEnergy, kNoEnergy);
 }
 
-void Driver::set_weight(VertexId v, double w) { set_point(v, mesh_.space().with_weight(mesh_.point(v), w)); }
+void Driver::set_weight(VertexId v, double w) {
+  if (!mesh_.is_frozen(v)) set_point(v, mesh_.space().with_weight(mesh_.point(v), w));
+}
 
 /// Line 20 of Algorithm 1. Returns false if flips cannot restore it: with inverted triangles or a vertex hidden against
 /// the policy.

@@ -39,6 +39,7 @@ void add_axis(Dofs& f, std::array<double, 3> axis) { f.axis[static_cast<std::siz
 }  // namespace
 
 Mobility mobility(const Mesh& mesh, VertexId v, const OptimizeOptions& options) {
+  if (mesh.is_frozen(v)) return Mobility::frozen;
   if (mesh.is_fixed(v)) return Mobility::fixed;
   const FixedLine line = fixed_line(mesh, v);
   if (line.shape == FixedLine::none) return Mobility::free;

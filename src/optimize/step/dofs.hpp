@@ -23,7 +23,7 @@ struct Dofs {
 /// The mobility that its place gives a vertex in all sweeps. It is decided once, since moves keep the lines of the
 /// boundary and of constrained edges.
 enum class Mobility : std::uint8_t {
-  frozen,   ///< neither position nor weight: the rim of a neighborhood
+  frozen,   ///< neither position nor weight: the rim of a neighborhood, and vertices around faces that must stay
   fixed,    ///< fixed by the user; a corner of the boundary; an end, bend or branch of a constrained line; or on a line
             ///< on which the options forbid sliding
   sliding,  ///< along a straight piece of the boundary, or of a constrained line

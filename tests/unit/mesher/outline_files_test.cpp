@@ -62,6 +62,17 @@ constexpr const char* kSquarePoly =
     "# a square\n4 2 1 1\n1 0 0 9.5 3\n2 1 0 9.5 3\n3 1 1 9.5 3\n4 0 1 9.5 3 # the last\n"
     "4 1\n1 1 2 5\n2 2 3 6\n3 3 4 7\n4 4 1 8\n0\n1\n1 0.5 0.5 12 0.01\n";
 
+TEST_F(OutlineFiles, SayWhatTheirLinesBecome) {
+  const std::string line = R"("geometry": {"type": "LineString", "coordinates": [[1, 1], [3, 2]]}})";
+  const std::string head = R"({"type": "Feature", "properties": {"name": "fault", "as": )";
+  const io::OutlineFile faces = read(head + "\"faces\"}, " + line), edges = read(head + "\"edges\"}, " + line);
+  ASSERT_EQ(faces.outline.segments.size(), 1U);
+  ASSERT_EQ(edges.outline.segments.size(), 1U);
+  EXPECT_EQ(faces.outline.segments[0].as, LineKind::faces);
+  EXPECT_EQ(edges.outline.segments[0].as, LineKind::edges);
+  expect_error(head + "\"walls\"}, " + line, "expected \"edges\" or \"faces\"");
+}
+
 TEST_F(OutlineFiles, PolyHasPointsSegmentsHolesAndRegions) {
   const io::OutlineFile file = read(kSquarePoly);
   EXPECT_EQ(file.format, "poly");

@@ -91,7 +91,7 @@ class UgridWriter {
       TriangleId other;
       for (int k = 0; k < 3; ++k) {
         const HalfedgeId h = Mesh::halfedge(t, k);
-        if (mesh.is_diagonal(h))
+        if (mesh.joins_halves(h))
           other = Mesh::triangle(mesh.twin(h)), edge_[m_.complex.edge_of_halfedge[h]] = kUgridNone;
       }
       const bool is_second = other.valid() && other < t;
@@ -215,7 +215,7 @@ class UgridWriter {
       for (int k = 0; k < 3; ++k) {
         const TriangleId t(static_cast<std::size_t>(halves_[static_cast<std::int64_t>(f)]));
         const HalfedgeId h = Mesh::halfedge(t, k);
-        if (!mesh.is_diagonal(h)) {
+        if (!mesh.joins_halves(h)) {
           add_side(h);
           continue;
         }
