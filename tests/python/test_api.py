@@ -57,6 +57,7 @@ ELSEWHERE = {
     "summarize": "DecComplex.summarize", "write_dec": "DecComplex.write, Columns.write",
     "dec_file_names": "write_dec returns the paths", "needs_columns": "as dec_file_names", "read_layers": "numpy.genfromtxt",
     "fault_of_surfaces": "columns says it", "layers_of_triangles": "numpy.mean over the corners",
+    "keep_faces": "read and mesh_outline do it", "become_faces": "Outline.faces",
     "cell_polygons": "power_cells and triangle_cells", "cell_formats": "write(cells=…) names them in errors", "cells_of_groups": "Columns.groups", "draw_before_after_svg": "draw_svg(before=…)", "write_text": "Svg.save and Html.save",
     "replay_with_vertices": "replay",
     "distance": "numpy.linalg.norm; the library asks a space for it",

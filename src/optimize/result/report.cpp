@@ -1,5 +1,6 @@
 #include "optimize/result/report.hpp"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -204,6 +205,14 @@ ChangeCounts changes_from(const Mesh& input, const Mesh& mesh, const IdVector<Ve
   return counts;
 }
 
+/// Steps can leave weights of 1e-300, which mean nothing and which files refuse.
+void drop_tiny_weights(Mesh& mesh) {
+  constexpr double kTiny = 1e-100;
+  for (const VertexId v : mesh.vertices()) {
+    if (std::abs(mesh.weight(v)) < kTiny && mesh.weight(v) != 0) mesh.set_weight(v, 0);
+  }
+}
+
 void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd& end, Run& run) {
   const Settings& settings = end.settings;
   OptimizeReport& report = run.report;
@@ -219,6 +228,7 @@ void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd
     ending.bad = result.score.bad;
   }
   const bool is_new = !returns_input || rivals.flips;
+  if (!returns_input) drop_tiny_weights(result.work.mesh);
   report.objective = settings.objective;
   report.objective_before = rivals.energy_before;
   report.objective_after = result.score.energy;

@@ -271,6 +271,12 @@ TEST_F(Usage, EveryExampleInTheHelpRuns) {
   const std::string square =
       R"({"type": "Polygon", "coordinates": [[[9, 0], [9.1, 0], [9.1, 0.1], [9, 0.1], [9, 0]]]})";
   write("coast.geojson", square);
+  write("valley.geojson",
+        R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}}, )"
+        R"("features": [{"type": "Feature", "properties": {}, "geometry": )"
+        R"({"type": "Polygon", "coordinates": [[[0, 0], [2000, 0], [2000, 1500], [0, 1500], [0, 0]]]}}, )"
+        R"({"type": "Feature", "properties": {"name": "fault"}, "geometry": )"
+        R"({"type": "LineString", "coordinates": [[500, 400], [1000, 900], [1500, 1000]]}}]})");
   write("basin.msh",
         "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=4\n9;0;0\n9.1;0;0\n9.1;0.1;0\n9;0.1;0\n"
         "EDGE2=4\n0;1;0\n1;2;0\n2;3;0\n3;0;0\n");
