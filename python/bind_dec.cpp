@@ -337,12 +337,13 @@ py::dict columns_to_dict(const std::shared_ptr<const PyColumns>& made) {
 
 /// The barriers of lines of the mesh's file, as rows: name, two cells, characteristic. `named` has pairs of a name and
 /// a characteristic.
-py::list barriers_of(const PyMesh& self, const py::sequence& named) {
+py::list barriers_of(const PyMesh& self, const py::sequence& named, const std::string& cells) {
   std::vector<std::pair<std::string, double>> characteristics;
   for (const auto& entry : named) {
     const auto pair = entry.cast<py::tuple>();
     characteristics.emplace_back(pair[0].cast<std::string>(), pair[1].cast<double>());
   }
+  const auto of = from_name<CellsOf>("cells", cells);
   const auto mesh = self.read();
   io::MeshFile file = self.source() ? self.source()->file : io::MeshFile();
   io::LoadedMesh loaded;
@@ -353,7 +354,7 @@ py::list barriers_of(const PyMesh& self, const py::sequence& named) {
     loaded = or_raise(io::make_mesh(file));
   }
   py::list rows;
-  for (const io::Barrier& b : or_raise(io::barriers_of_lines(file, loaded, *mesh, characteristics)))
+  for (const io::Barrier& b : or_raise(io::barriers_of_lines(file, loaded, *mesh, characteristics, of)))
     rows.append(py::make_tuple(b.name, b.first, b.second, b.characteristic));
   return rows;
 }

@@ -450,9 +450,11 @@ class Barrier(Record):
     absolute value is a factor on the conductance between the two cells."""
 
 
-def barriers_of_lines(mesh: MeshLike, characteristics: Mapping[str, float]) -> list[Barrier]:
-    """The barriers on the edges of tagged lines, each between the triangles on its two sides. They are for
-    ``columns(..., cells="triangles")``, whose faces are edges.
+def barriers_of_lines(
+    mesh: MeshLike, characteristics: Mapping[str, float], cells: Literal["power", "triangles"] = "triangles"
+) -> list[Barrier]:
+    """The barriers on tagged lines. For ``columns(..., cells="triangles")`` each edge of a line is one, between the
+    triangles on its two sides. For power cells the line must be faces: ``temper mesh --faces`` makes them.
 
     Parameters
     ----------
@@ -460,16 +462,18 @@ def barriers_of_lines(mesh: MeshLike, characteristics: Mapping[str, float]) -> l
         A mesh with tagged lines.
     characteristics : dict of str to float
         Hydraulic characteristic of each line, by its name or tag [1/time].
+    cells : str
+        The cells of ``columns``: ``power`` or ``triangles``.
 
     Raises
     ------
     TemperError
-        No line inside the domain has the name or tag; a value that is not finite.
+        No line inside the domain has the name or tag; the line is not on faces of these cells; a value that is not finite.
     """
     if not isinstance(characteristics, Mapping):
         raise TypeError(f"characteristics: expected a dict of str to float, found {type(characteristics).__name__}")
     named = [(str(name), float(value)) for name, value in characteristics.items()]
-    return [Barrier(*row) for row in _temper.barriers_of_lines(as_mesh(mesh)._handle, named)]
+    return [Barrier(*row) for row in _temper.barriers_of_lines(as_mesh(mesh)._handle, named, cells)]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

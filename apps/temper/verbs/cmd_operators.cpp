@@ -74,8 +74,8 @@ void add_options(Command& command, DecSettings& s) {
   add_text(
       command, "--barriers", "NAME=C,...", s.barriers,
       "Lines that are barriers to flow, by name or tag, each with its hydraulic characteristic: the conductivity of "
-      "the barrier over its width. The files of 'disv' and 'disu' then have one for MODFLOW's package HFB. It needs "
-      "--cells triangles, whose faces are the edges of lines.")
+      "the barrier over its width. The files of 'disv' and 'disu' then have one for MODFLOW's package HFB. Lines of "
+      "'temper mesh --faces' are faces of power cells. Others need --cells triangles.")
       .cells = CellKinds::triangles;
   command.group("Report");
   command.add_flag("--json", s.json, "Print the summary as JSON.");
@@ -110,8 +110,6 @@ std::vector<io::DecFormat> parse_formats(std::string_view list) {
 void check_layers(const Command& command, const DecSettings& s, const std::vector<io::DecFormat>& formats) {
   const bool wanted = std::ranges::any_of(formats, [](io::DecFormat format) { return io::needs_columns(format); });
   if (wanted && s.layers.empty()) refuse_usage("operators", "--format: disv, disu, tough and uge need --layers");
-  if (!s.barriers.empty() && s.cells == CellsOf::vertices)
-    refuse_usage("operators", "--barriers: lines run through the centers of power cells. Next: add --cells triangles");
   for (const char* const option : {"--barriers", "--cells", "--pinch-out"}) {
     if (s.layers.empty() && command.was_given(option))
       print_warnings(std::array{fmt::format("{} has no effect without --layers", option)});
@@ -172,7 +170,7 @@ std::vector<io::Barrier> make_barriers(const DecSettings& s, const Input& input)
     if (!value) refuse_usage("operators", fmt::format("--barriers: expected NAME=NUMBER, found '{}'", entry));
     characteristics.emplace_back(entry.substr(0, equals), *value);
   }
-  auto made = io::barriers_of_lines(input.file, input.loaded, input.mesh(), characteristics);
+  auto made = io::barriers_of_lines(input.file, input.loaded, input.mesh(), characteristics, s.cells);
   if (!made) throw as_failure(located(made.error(), s.input));
   return *std::move(made);
 }

@@ -154,11 +154,32 @@ TEST_F(Dec, TrianglesMayBeTheCellsWithBarriersOnTheirEdges) {
   EXPECT_TRUE(contains(read("out/mesh.disv.hfb"), "# fault\n  1 1 1 2 1e-06\n  2 1 2 2 1e-06\nEND PERIOD\n") ||
               contains(read("out/mesh.disv.hfb"), "# fault\n  1 2 1 1 1e-06\n  2 2 2 1 1e-06\nEND PERIOD\n"))
       << read("out/mesh.disv.hfb");
-  expect_failure(with({"--barriers", "fault=1"}), 2, "--barriers: lines run through the centers of power cells");
+  expect_failure(with({"--barriers", "fault=1"}), 2,
+                 "barrier 'fault': its line runs through the centers of power cells");
   expect_failure(with({"--cells", "triangles", "--barriers", "fault"}), 2,
                  "--barriers: expected NAME=NUMBER, found 'fault'");
   expect_failure(with({"--cells", "triangles", "--barriers", "river=1"}), 2,
                  "barrier 'river': no line inside the domain has this name or tag");
+}
+
+// A fault of three pieces is on faces of power cells: each is a barrier between two vertices.
+TEST_F(Dec, BarriersOfPowerCellsAreOnLinesThatAreFaces) {
+  write("o.geojson", R"({"type": "FeatureCollection", "crs": "EPSG:32632", "features": [)"
+                     R"({"type": "Feature", "properties": {}, "geometry": {"type": "Polygon",)"
+                     R"( "coordinates": [[[0, 0], [90, 0], [90, 60], [0, 60], [0, 0]]]}}, )"
+                     R"({"type": "Feature", "properties": {"name": "fault"}, "geometry": {"type": "LineString",)"
+                     R"( "coordinates": [[20, 20], [45, 30], [70, 30]]}}]})");
+  temper_ok({"mesh", "o.geojson", "-o", "f.vtu", "--size", "12", "--faces", "fault", "--for", "vertex"});
+  write("l.csv", "vertex,top,bottom 1\n*,1,0\n");
+  const std::vector<std::string> all = {"operators", "f.vtu",    "-o",   "out",        "--layers",
+                                        "l.csv",     "--format", "disv", "--barriers", "fault=1e-6"};
+  temper_ok(all);
+  const std::string hfb = read("out/mesh.disv.hfb");
+  std::istringstream lines(hfb.substr(hfb.find("# fault\n") + 8));
+  std::size_t rows = 0;
+  for (std::string line; std::getline(lines, line) && line != "END PERIOD";) ++rows;
+  EXPECT_GE(rows, 4U);
+  EXPECT_TRUE(contains(hfb, "MAXHFB " + std::to_string(rows) + "\n"));
 }
 
 TEST_F(Dec, BadInputWritesNothing) {

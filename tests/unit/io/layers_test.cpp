@@ -196,14 +196,14 @@ TEST_F(LayerFiles, BarriersOfLinesAreBetweenTheTrianglesOnTheirTwoSides) {
   const std::vector<std::pair<std::string, double>> by_name = {{"fault", 2}}, by_tag = {{"9", 2}},
                                                     unknown = {{"river", 2}};
   for (const auto& asked : {by_name, by_tag}) {
-    const auto made = barriers_of_lines(file, *loaded_, mesh, asked);
+    const auto made = barriers_of_lines(file, *loaded_, mesh, asked, CellsOf::triangles);
     ASSERT_TRUE(made) << made.error().what();
     ASSERT_EQ(made->size(), 1u);
     EXPECT_EQ(std::min(made->front().first, made->front().second), 0u);
     EXPECT_EQ(std::max(made->front().first, made->front().second), 1u);
     EXPECT_EQ(made->front().characteristic, 2);
   }
-  EXPECT_EQ(barriers_of_lines(file, *loaded_, mesh, unknown).error().what(),
+  EXPECT_EQ(barriers_of_lines(file, *loaded_, mesh, unknown, CellsOf::triangles).error().what(),
             "barrier 'river': no line inside the domain has this name or tag");
 }
 
