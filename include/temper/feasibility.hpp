@@ -287,7 +287,8 @@ struct WeightOptions {
   std::vector<HalfedgeId> edges = {};  ///< Prescribed edges of `regular`, each by either halfedge; empty: all
   /// Factors c and c_b of WeightGoal::accuracy: of the offsets inside and of heights on the boundary (AccuracyOptions).
   double offset_factor = 10, boundary_offset_factor = 5;
-  /// Asked between programs, and within those of `least`: if it says yes, regions that are left keep their weights.
+  /// The search asks it between programs, and within those of `least`. If it says yes, the other regions keep their
+  /// weights.
   std::function<bool()> must_stop = {};
 };
 

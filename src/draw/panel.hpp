@@ -33,7 +33,7 @@ struct Panel {
 inline constexpr std::array<const char*, 10> kScaleColors = {"#7690c8", "#8ba1cc", "#9fb3d0", "#b3c5d3", "#c6d7d6",
                                                              "#d5e2d2", "#e1e6c6", "#eceaba", "#f6eead", "#fff2a0"};
 [[nodiscard]] ColorScale scale_of(const TriangleColors& colors);
-/// Of regions, by turns: light, so that lines stand out, and different from each other for color-blind readers.
+/// The colors of regions, by turns. They are light, so that lines stand out. Color-blind readers can tell them apart.
 inline constexpr std::array<const char*, 8> kRegionColors = {"#f3e3b3", "#b5cfe8", "#c3e0b4", "#efc0ad",
                                                              "#d5c6e8", "#f5cf8f", "#b3dcd8", "#d9d9d9"};
 /// The regions of the cells of all panels, ascending.

@@ -39,7 +39,7 @@ Write write_vtu, write_gmsh22, write_gmsh41, write_medit, write_triangle, write_
     write_jigsaw_mesh, write_off, write_ply, write_adcirc, write_vtkhdf, write_mpas, write_ugrid, write_fesom,
     write_2dm, write_mike, write_selafin;
 Keeps fesom_keeps, adcirc_keeps, jigsaw_keeps, medit_keeps, mike_keeps, selafin_keeps;
-Files fesom_files, selafin_files, triangle_files, triangle_files_to_read, vtkhdf_files, netcdf_files;
+Files fesom_files, selafin_files, triangle_files, triangle_files_to_read, vtkhdf_files;
 
 namespace {
 
@@ -167,23 +167,9 @@ Document read_document(const std::string& path, const ReadOptions& options) {
   return document;
 }
 
-bool ends_with(std::string_view path, std::string_view suffix, bool any_case) {
-  const auto lower = [any_case](char c) { return any_case && c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-  return path.size() >= suffix.size() &&
-         std::ranges::equal(path.substr(path.size() - suffix.size()), suffix, {}, lower, lower);
-}
-
-/// The length of the row's suffix that the path ends with, or 0. Letters may be large, unless the format has several
-/// files, whose names belong together.
+/// Letters may be large, unless the format has several files, whose names belong together.
 std::size_t suffix_length(const FormatRow& row, const std::string& path) {
-  std::string_view left = row.suffixes;
-  std::size_t longest = 0;
-  while (!left.empty()) {
-    const std::size_t end = std::min(left.find(' '), left.size());
-    if (ends_with(path, left.substr(0, end), row.details.files_to_read == nullptr)) longest = std::max(longest, end);
-    left.remove_prefix(std::min(end + 1, left.size()));
-  }
-  return longest;
+  return io::suffix_length(row.suffixes, path, row.details.files_to_read == nullptr);
 }
 
 /// One column of the rows that are written and hold these contents.

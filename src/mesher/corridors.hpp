@@ -34,8 +34,8 @@ struct Laid {
 
 [[nodiscard]] bool has_faces(const Domain& domain);
 
-/// What cannot become faces, with place and reason: on a sphere or with few points, at named points, at corners of the
-/// boundary, at bends and branches of other lines.
+/// The first line that cannot become faces, with place and reason: on a sphere or with few points, at named points, at
+/// corners of the boundary, at bends and branches of other lines.
 [[nodiscard]] std::optional<InputError> check_faces(const Problem& problem, const Domain& domain);
 
 /// Warnings of lines that end on a face, and become shorter.

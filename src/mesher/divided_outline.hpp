@@ -31,7 +31,7 @@ struct SitePair {
   std::uint32_t edge = 0;  ///< of the arrangement
 };
 
-/// What lines that become faces need around them: sites, which are vertices with weights (corridors.hpp).
+/// The sites around lines that become faces: vertices with weights (corridors.hpp).
 struct Corridors {
   /// Sites around each point of a face, counter-clockwise. All have one power there.
   std::vector<std::vector<std::uint32_t>> polygons;

@@ -32,7 +32,7 @@ void FacePolygons::add(Connectivity& connectivity) const {
   }
 }
 
-/// All triangulations of a polygon are regular but for rounding. Exact flips find the one that is.
+/// All triangulations of a polygon are regular, except for rounding. Exact flips find the one that is.
 void FacePolygons::make_regular(Mesh& mesh) const {
   Lawson lawson;
   for (const auto& polygon : corridors_.polygons) {

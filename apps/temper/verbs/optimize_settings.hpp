@@ -64,7 +64,7 @@ void settle_options(Command& command, OptimizeSettings& settings);
 /// Failure if options, or words or values of them, are for other cells than the mesh has.
 void expect_for(const Command& command, const OptimizeSettings& settings, CellKinds cells);
 
-/// The same of a target alone.
+/// Failure if the target is for other cells than the mesh has.
 void expect_target_for(const std::string& verb, const std::string& input, std::string_view target, CellKinds cells);
 
 /// "12 sweeps in 0.3 s, 4 flips, 2 vertices inserted".

@@ -73,8 +73,8 @@ struct Barrier {
 
 /// The barriers on tagged lines, in the order of the names. For triangles each edge of the line is one, between the
 /// triangles on its two sides. For power cells the line must be faces (temper/detail/faces.hpp), and each is one.
-/// `characteristics`: those of the lines by name or tag. Edges on the boundary of the domain have no barrier. Errors:
-/// no inner line has the name or tag; it is not faces of these cells; a value that is not finite.
+/// `characteristics` has the value of each line, by name or tag. Edges on the boundary of the domain have no barrier.
+/// Errors: no inner line has the name or tag; it is not faces of these cells; a value that is not finite.
 [[nodiscard]] Expected<std::vector<Barrier>> barriers_of_lines(
     const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
     std::span<const std::pair<std::string, double>> characteristics, CellsOf of);

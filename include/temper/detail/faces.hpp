@@ -18,8 +18,8 @@ namespace temper {
 
 /// Keeps the duals of these edges through all changes of the mesh. It marks the edges as faces. Around each end of a
 /// dual it takes the polygon of all triangles with this orthocenter. Corners of polygons become frozen, their sides
-/// constrained, and edges inside become diagonals. So does an edge of the
-/// boundary on which a dual ends. O(n) in the number of edges.
+/// constrained, and edges inside become diagonals. So does an edge of the boundary on which a dual ends. O(n) in the
+/// number of edges.
 void keep_faces(Mesh& mesh, std::span<const HalfedgeId> faces);
 
 }  // namespace temper

@@ -24,7 +24,7 @@ struct PhysicalName {
   std::string name;
 };
 
-/// What a line becomes in a mesh.
+/// The parts of a mesh that lines can become.
 enum class LineKind : std::uint8_t {
   edges,  ///< Edges of triangles: centers of power cells lie on the line
   faces,  ///< Faces of power cells: centers lie on both sides. Only inside the domain, in the plane

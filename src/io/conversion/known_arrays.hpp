@@ -14,7 +14,7 @@ namespace temper::io {
 inline constexpr std::string_view kCorner = "medit:corner", kRequired = "medit:required";
 /// Of marked points: 0 a point, 1 its partner across a levee, which stays opposite.
 inline constexpr std::string_view kPairSide = "adcirc:side";
-/// Of lines: 1 if the dual of the edge is a face that must stay, such as a piece of a fault; else 0.
+/// This array of lines has 1 if the dual of the edge is a face that must stay, such as a piece of a fault; else 0.
 inline constexpr std::string_view kFace = "temper:face";
 /// The first group of each cell. Without it, this is the region.
 inline constexpr std::string_view kFirstGroup = "gmsh:physical:first";

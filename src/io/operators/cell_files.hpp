@@ -67,6 +67,8 @@ void write_cells_geojson(const CellJob& job);
 void write_cells_geopackage(const CellJob& job);
 void write_cells_vtu(const CellJob& job);
 void write_cells_ugrid(const CellJob& job);
+/// Defined with the formats in NetCDF: the path, or the reason why it cannot be written.
+std::vector<std::string> netcdf_files(const std::string& path);
 
 /// write() and files_to_write() for cells.
 [[nodiscard]] Expected<std::vector<std::string>> write_cells(const std::string& path, const MeshFile& file,

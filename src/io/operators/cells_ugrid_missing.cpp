@@ -3,9 +3,6 @@
 
 namespace temper::io {
 
-// The table of the formats of cells calls it first, and it says why no file can be written.
-std::vector<std::string> netcdf_files(const std::string& path);
-
 void write_cells_ugrid(const CellJob& job) { static_cast<void>(netcdf_files(job.path)); }
 
 }  // namespace temper::io

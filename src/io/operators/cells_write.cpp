@@ -12,9 +12,6 @@
 
 namespace temper::io {
 
-// Defined with the formats in NetCDF: the path, or the reason why it cannot be written.
-std::vector<std::string> netcdf_files(const std::string& path);
-
 namespace {
 
 constexpr double kWholeTurn = 360, kHalfTurn = 180, kPoleLatitude = 90;  // degrees
@@ -42,21 +39,16 @@ const auto kCellFormats = [] {
 
 std::vector<std::string_view> column_of_formats(std::string_view CellFormat::*column) {
   std::vector<std::string_view> all;
+  all.reserve(kCellFormats.size());
   for (const CellFormat& format : kCellFormats) all.push_back(format.*column);
   return all;
 }
 
 /// The row with a suffix that the path ends with, or null.
 const CellFormatRow* row_by_suffix(const std::string& path) {
-  const std::string lower = lower_case(path);
-  for (const CellFormatRow& row : kCellRows) {
-    for (std::string_view left = row.suffixes; !left.empty();) {
-      const std::size_t end = std::min(left.find(' '), left.size());
-      if (lower.ends_with(left.substr(0, end))) return &row;
-      left.remove_prefix(std::min(end + 1, left.size()));
-    }
-  }
-  return nullptr;
+  const auto* const row = std::ranges::find_if(
+      kCellRows, [&](const CellFormatRow& each) { return suffix_length(each.suffixes, path, true) > 0; });
+  return row == std::end(kCellRows) ? nullptr : row;
 }
 
 const CellFormatRow& cell_row(const std::string& path, const std::string& format) {

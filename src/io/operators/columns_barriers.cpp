@@ -51,6 +51,11 @@ Expected<std::vector<Barrier>> barriers_of_lines(const MeshFile& file, const Loa
                                                  CellsOf of) {
   return guarded<std::vector<Barrier>>(file.path, [&] {
     std::vector<Barrier> barriers;
+    const bool of_vertices = of == CellsOf::vertices;
+    const std::string_view other =
+        of_vertices ? "through the centers of power cells; expected faces of them. Next: mesh the outline with "
+                      "--faces, or take triangles as cells"
+                    : "between power cells, whose faces it is. Next: take power cells, not triangles";
     const auto vertex = [&](std::int32_t p) {
       const std::int32_t v = loaded.vertex_of_point[static_cast<std::size_t>(p)];
       return v < 0 ? VertexId() : VertexId(static_cast<std::size_t>(v));
@@ -61,25 +66,16 @@ Expected<std::vector<Barrier>> barriers_of_lines(const MeshFile& file, const Loa
              value);
       const std::vector<std::int32_t> tags = tags_of_lines(file, name);
       const std::size_t before = barriers.size();
-      bool is_other = false;
       for (std::size_t i = 0; i < file.lines.size(); ++i) {
         const VertexId a = vertex(file.lines[i][0]), b = vertex(file.lines[i][1]);
         if (std::ranges::find(tags, file.lines.tags[i]) == tags.end() || !a.valid() || !b.valid()) continue;
         const HalfedgeId h = mesh.find_halfedge(a, b), twin = mesh.find_halfedge(b, a);
         if (!h.valid() || !twin.valid()) continue;
-        is_other = mesh.is_face(h) != (of == CellsOf::vertices);
-        if (is_other) break;
-        const bool of_vertices = of == CellsOf::vertices;
+        if (mesh.is_face(h) != of_vertices)
+          fail(ErrorCode::invalid_option, "", "barrier '", name, "': its line runs ", other);
         barriers.push_back({name, of_vertices ? a.index : Mesh::triangle(h).index,
                             of_vertices ? b.index : Mesh::triangle(twin).index, value});
       }
-      if (is_other)
-        fail(
-            ErrorCode::invalid_option, "", "barrier '", name, "': its line runs ",
-            of == CellsOf::vertices
-                ? "through the centers of power cells; expected faces of them. Next: mesh the outline with --faces, or "
-                  "take triangles as cells"
-                : "between power cells, whose faces it is. Next: take power cells, not triangles");
       if (barriers.size() == before)
         fail(ErrorCode::invalid_option, "", "barrier '", name, "': no line inside the domain has this name or tag");
     }

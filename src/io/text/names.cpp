@@ -44,6 +44,19 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+std::size_t suffix_length(std::string_view suffixes, std::string_view path, bool any_case) {
+  const auto lower = [any_case](char c) { return any_case && c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  std::size_t longest = 0;
+  while (!suffixes.empty()) {
+    const std::string_view suffix = suffixes.substr(0, suffixes.find(' '));
+    const bool fits = path.size() >= suffix.size() &&
+                      std::ranges::equal(path.substr(path.size() - suffix.size()), suffix, {}, lower, lower);
+    if (fits) longest = std::max(longest, suffix.size());
+    suffixes.remove_prefix(std::min(suffix.size() + 1, suffixes.size()));
+  }
+  return longest;
+}
+
 void append_percent(std::string& text, char c) {
   constexpr std::string_view kHex = "0123456789ABCDEF";
   const auto code = static_cast<unsigned char>(c);

@@ -28,6 +28,9 @@ void make_names_unique(std::vector<DataArray>& arrays);
 /// The text with ASCII letters of one case.
 [[nodiscard]] std::string upper_case(std::string_view text);
 [[nodiscard]] std::string lower_case(std::string_view text);
+/// The length of the longest suffix that the path ends with, of those between blanks, or 0. `any_case`: letters of the
+/// path may be large.
+[[nodiscard]] std::size_t suffix_length(std::string_view suffixes, std::string_view path, bool any_case);
 
 /// Appends %20 for a blank.
 void append_percent(std::string& text, char c);

@@ -1,4 +1,4 @@
-// What a run changed, and what it says about that, for triangles and for tetrahedra.
+// Counts of the changes of a run, and its notes about them, for triangles and for tetrahedra.
 #pragma once
 
 #include <cstddef>
@@ -30,9 +30,9 @@ template <class Mesh, class Number, class IsMoved>
 
 /// "3 vertices moved, 4 weights and 0 edges changed; all else is as it was"
 [[nodiscard]] std::string changes_note(const ChangeCounts& changed);
-/// Of an input that needs no change.
+/// The note about an input that needs no change.
 [[nodiscard]] std::string criterion_is_met_note(Criterion criterion);
-/// Other places than the bad ones have changed, too. `places`: "3 triangles" at violations, all or those left.
+/// The note about changes at other places than the bad ones. `places`: "3 triangles" at violations, all or those left.
 [[nodiscard]] std::string whole_mesh_note(const std::string& places, bool many_are_bad);
 
 }  // namespace temper

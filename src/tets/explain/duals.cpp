@@ -70,18 +70,16 @@ EdgeFace part_of(const TetMesh& mesh, HalffaceId h, const std::array<VertexId, 2
 
 std::string why(const TetMesh& mesh, const VertexStars& stars, const ViolatedEdge& violated) {
   EdgeFace worst;
-  for (const HalffaceId across : stars.link(violated.vertices[0])) {
-    const TetId t = TetMesh::tetrahedron(across);
-    if (violated.kind == DualKind::region && mesh.region(t) != violated.region) continue;
+  stars.for_each_around(mesh, violated.vertices, [&](TetId t) {
+    if (violated.kind == DualKind::region && mesh.region(t) != violated.region) return;
     for (int f = 0; f < 4; ++f) {
       const HalffaceId h = TetMesh::halfface(t, f);
-      const auto vertices = mesh.vertices(h);
-      if (h == across || std::ranges::find(vertices, violated.vertices[1]) == vertices.end()) continue;
+      if (std::ranges::find(violated.vertices, mesh.opposite(h)) != violated.vertices.end()) continue;
       const bool both = violated.kind != DualKind::region || !mesh.bounds_region(h);
       const EdgeFace part = part_of(mesh, h, violated.vertices, both);
       if (!worst.face.valid() || part.over_l2 < worst.over_l2) worst = part;
     }
-  }
+  });
   const bool both = violated.kind != DualKind::region || !mesh.bounds_region(worst.face);
   const Vec3 apex = mesh.position(worst.apex), p = mesh.position(violated.vertices[0]) - apex,
              q = mesh.position(violated.vertices[1]) - apex;

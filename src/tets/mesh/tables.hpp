@@ -49,6 +49,15 @@ class VertexStars {
     const std::size_t first = v.index == 0 ? 0 : end_[v.index - 1];
     return {sorted_.data() + first, end_[v.index] - first};
   }
+  /// Calls use(t) for the tetrahedra around an edge, ascending.
+  template <class Use>
+  void for_each_around(const TetMesh& mesh, const std::array<VertexId, 2>& edge, const Use& use) const {
+    for (const HalffaceId across : link(edge[0])) {
+      const TetId t = TetMesh::tetrahedron(across);
+      const auto& corners = mesh.corners(t);
+      if (std::find(corners.begin(), corners.end(), edge[1]) != corners.end()) use(t);
+    }
+  }
 
  private:
   std::vector<std::uint32_t> end_;

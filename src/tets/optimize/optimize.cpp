@@ -43,7 +43,7 @@ constexpr int kMostHotSweeps = 32;
 constexpr std::size_t kRepairWork = 300'000, kRepairWorkPerTet = 40;
 // Trials in vain of a first pass over all patches: most of those that help are among the first.
 constexpr int kFewTrials = 2;
-// What weights alone have to keep for each criterion.
+// The constraints on weights alone for each criterion.
 constexpr std::array kConstraints = {Constraints::well_centered, Constraints::coefficients, Constraints::distances};
 
 [[nodiscard]] bool changes_connectivity(const OptimizeOptions& o) {
@@ -176,12 +176,10 @@ class Driver : Run {
   /// Changes the connectivity where sweeps alone are not enough: first at all bad tetrahedra at once, then, from the
   /// best mesh, in patches. Each round counts as one sweep.
   void repair() {
-    const auto must_stop = [this](double) { return is_stopped(0); };
     const SearchOptions of_all = {.criterion = criterion_, .most_cosine = guarded_cosine()};
     for (std::size_t in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
       const std::size_t before = best_bad_;
-      if (!may_sweep() || !change_all(draft_, of_all, must_stop, hooks_.executor)) break;
-      end_round(false);
+      if (!may_sweep() || !change_places(of_all)) break;
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
     repair_in_patches();
@@ -192,18 +190,22 @@ class Driver : Run {
                       options_.tets.patches == Patches::each});
     }
   }
+  /// Makes a round of changes at all places. False: there was nothing to do, or it must stop.
+  bool change_places(const SearchOptions& options) {
+    const bool changes = change_all(
+        draft_, options, [this](double) { return is_stopped(0); }, hooks_.executor);
+    if (changes) end_round(false);
+    return changes;
+  }
   /// Changes the connectivity at small margins, too, as long as the energy falls: large weights there make errors
   /// large. A round in vain may be a step to a better mesh, two are not.
   void widen_margins() {
-    const auto must_stop = [this](double) { return is_stopped(0); };
     Draft widest = draft_ = *best_.kept;
     double least = state_of(widest.mesh, kLastGamma, hooks_.executor).energy;
     SearchOptions options = {.criterion = criterion_, .small_margin = kSmallMargin, .most_cosine = most_cosine_};
     for (std::size_t in_vain = 0; in_vain < kRoundsInVain && may_sweep();) {
       options.rank = in_vain;
-      if (!change_all(draft_, options, must_stop, hooks_.executor)) break;
-      end_round(false);
-      if (stopped_early()) break;
+      if (!change_places(options) || stopped_early()) break;
       const SweepRecord& now = report.history.back();
       const bool is_better = now.bad == 0 && now.energy < (1 - kGainOfRound) * least;
       in_vain = is_better ? 0 : in_vain + 1;

@@ -162,12 +162,9 @@ bool split_violated_edges(Draft& draft, Executor* executor) {
   std::vector<Filling> chosen;
   for (const ViolatedEdge& e : edges) {
     const auto [a, b] = e.vertices;
-    const auto link = stars.link(a);
-    const auto at_edge = std::find_if(link.begin(), link.end(), [&, b = b](HalffaceId h) {
-      const auto corners = mesh.vertices(h);
-      return std::find(corners.begin(), corners.end(), b) != corners.end();
-    });
-    auto cavity = cavities.to_split(TetMesh::tetrahedron(*at_edge), a, b);
+    TetId at_edge;
+    stars.for_each_around(mesh, e.vertices, [&at_edge](TetId t) { at_edge = at_edge.valid() ? at_edge : t; });
+    auto cavity = cavities.to_split(at_edge, a, b);
     if (!cavity) continue;
     const auto& around = cavity->tetrahedra;
     if (std::any_of(around.begin(), around.end(), [&](TetId t) { return used[t] != 0; })) continue;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/sort_unique.hpp"
-#include "tets/energy/star.hpp"
 
 namespace temper::tets {
 namespace {
@@ -51,16 +50,14 @@ void add_at_faces(const Draft& draft, Criterion criterion, const Rim& rim, Execu
 }
 
 void add_around_edges(const Draft& draft, const Rim& rim, Executor* executor, std::vector<TetId>& cells) {
-  std::vector<HalffaceId> link;
-  for (const ViolatedEdge& e : violated_edges(draft.mesh, executor)) {
-    if (rim.has_edge(e.vertices)) continue;
-    collect_link(draft.mesh, e.vertices[0], link);
-    for (const HalffaceId h : link) {
-      const TetId t = TetMesh::tetrahedron(h);
-      const auto& corners = draft.mesh.corners(t);
-      const bool counts = e.kind != DualKind::region || draft.mesh.region(t) == e.region;
-      if (counts && std::find(corners.begin(), corners.end(), e.vertices[1]) != corners.end()) cells.push_back(t);
-    }
+  std::vector<ViolatedEdge> edges = violated_edges(draft.mesh, executor);
+  std::erase_if(edges, [&rim](const ViolatedEdge& e) { return rim.has_edge(e.vertices); });
+  if (edges.empty()) return;
+  const VertexStars stars(draft.mesh);
+  for (const ViolatedEdge& e : edges) {
+    stars.for_each_around(draft.mesh, e.vertices, [&](TetId t) {
+      if (e.kind != DualKind::region || draft.mesh.region(t) == e.region) cells.push_back(t);
+    });
   }
 }
 

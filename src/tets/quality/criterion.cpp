@@ -21,12 +21,8 @@ std::vector<Violated> joined(const std::vector<std::vector<Violated>>& blocks) {
 
 void append_cells(const TetMesh& mesh, const std::vector<ViolatedEdge>& edges, std::vector<TetId>& cells) {
   const VertexStars stars(mesh);
-  for (const ViolatedEdge& edge : edges) {
-    for (const HalffaceId across : stars.link(edge.vertices[0])) {
-      const TetId t = TetMesh::tetrahedron(across);
-      if (std::ranges::find(mesh.corners(t), edge.vertices[1]) != mesh.corners(t).end()) cells.push_back(t);
-    }
-  }
+  for (const ViolatedEdge& edge : edges)
+    stars.for_each_around(mesh, edge.vertices, [&cells](TetId t) { cells.push_back(t); });
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ std::vector<std::array<Vec2, 2>> faces_of(const Mesh& mesh) {
   return faces;
 }
 
-/// Equal but for rounding: corners of a triangle may be in another order.
+/// Equal except for rounding: corners of a triangle may be in another order.
 void expect_equal(const std::vector<std::array<Vec2, 2>>& found, const std::vector<std::array<Vec2, 2>>& wanted,
                   const std::string& what) {
   ASSERT_EQ(found.size(), wanted.size()) << what;

@@ -268,7 +268,7 @@ class HostileFiles : public FileTest, public ::testing::WithParamInterface<std::
   const Hostile& hostile() const { return hostile_files()[GetParam()]; }
 };
 
-/// Lets the process take so many seconds from now on.
+/// Limits the seconds that the process may take from now on.
 void limit_seconds() {
   rusage used = {};
   getrusage(RUSAGE_SELF, &used);

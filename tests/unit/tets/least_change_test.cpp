@@ -27,7 +27,7 @@ OptimizeHooks with_weights() {
 }
 OptimizeOptions least(Scheme scheme) { return {.scheme = scheme, .change = Change::least}; }
 
-/// A lattice of weights 0 that meets all criteria, but for one vertex in its middle, off its place.
+/// A lattice of weights 0 that meets all criteria, except for one vertex in its middle, off its place.
 TetMesh with_one_bad_place(double shift) {
   TetMesh mesh = test::mesh_of(test::body_centered(6));
   const Vec3 middle = {3, 3, 3};
