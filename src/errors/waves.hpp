@@ -16,8 +16,8 @@ namespace temper::error_detail {
 
 // Wave numbers in radians per half of the bounding box.
 inline constexpr double kWaveNumbers[] = {1.5, 3.5};
-inline constexpr double kFrontNumber = 6;
-inline constexpr std::size_t kFrontBlocks = 3;
+inline constexpr double kFrontNumber = 7;
+inline constexpr std::size_t kFrontBlocks = 8;
 // A block has a sine and a cosine in each direction. So the sum of their squares does not depend on the place.
 inline constexpr std::size_t kDirections = kLanes / 2;
 

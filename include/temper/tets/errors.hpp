@@ -57,7 +57,7 @@ struct ErrorReport {
 [[nodiscard]] Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before);
 
 /// Makes a model of the errors of a scheme for OptimizeHooks. For Scheme::vertex and Scheme::all it has unknowns at the
-/// vertices and derivatives. Its two errors are those of 32 plane waves in 16 directions, and of 24 steep fronts in 12
+/// vertices and derivatives. Its two errors are those of 32 plane waves in 16 directions, and of 64 steep fronts in 32
 /// directions. For Scheme::cell it takes the flux errors of the chosen fields, without derivatives. Null: another
 /// scheme.
 [[nodiscard]] std::shared_ptr<const DiscretizationError> make_discretization_error(Scheme scheme);

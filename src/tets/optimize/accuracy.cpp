@@ -36,10 +36,14 @@ constexpr double kRoomOfCosine = 1e-4;
 
 }  // namespace
 
-double mean_ratio(const std::vector<double>& errors, const std::vector<double>& unit) {
+double AccuracyErrors::mean_ratio(const std::vector<double>& errors) const {
   double product = 1;
-  for (std::size_t i = 0; i < errors.size(); ++i) product *= errors[i] / unit[i];
-  return errors.size() == 2 ? std::sqrt(std::sqrt(product)) : std::sqrt(product);
+  int counts = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    for (int k = 0; k < count(i); ++k, ++counts) product *= errors[i] / unit[i];
+  }
+  const double root = std::sqrt(product);
+  return counts == 3 ? cube_root(root) : counts == 2 ? std::sqrt(root) : root;
 }
 
 AccuracyModel accuracy_model(Scheme scheme) {
@@ -132,14 +136,16 @@ Accuracy::Value Accuracy::value() const {
   Gradient slopes;
   const auto [offsets, barrier] = energy_.of(mesh_, &slopes, executor_);
   const double sum = offsets + barrier;
-  const double mean = mean_ratio(errors, errors_.unit);
+  const double mean = errors_.mean_ratio(errors);
   if (!(sum > 0 && mean > 0 && std::isfinite(sum) && std::isfinite(mean))) return result;
   result.lowered = 2 * portable_log(mean) + kOffsetShare * portable_log(sum);
   result.measure = errors_.model ? mean : offsets;
-  const auto n = static_cast<double>(errors.size());
+  int counts = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) counts += errors_.count(i);
   for (const VertexId v : mesh_.vertices()) {
     slopes[v] = kOffsetShare / sum * slopes[v];
-    for (std::size_t i = 0; i < errors.size(); ++i) slopes[v] = slopes[v] + 1 / (n * errors[i]) * of_errors[i][v];
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      slopes[v] = slopes[v] + errors_.count(i) / (counts * errors[i]) * of_errors[i][v];
   }
   result.gradient.resize(kUnknowns * mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) {

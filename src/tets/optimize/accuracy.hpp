@@ -37,11 +37,13 @@ struct AccuracyLimits {
 struct AccuracyErrors {
   const DiscretizationError* model = nullptr;  ///< J, or null
   std::vector<double> unit;                    ///< Errors that count as 1, one for each error of the model
-};
+  bool fronts_count_twice = false;             ///< The second error, of fronts, in the mean with waves
 
-/// The root mean square errors over their units; of two kinds the geometric mean, so that each counts alike.
-/// Precondition: `errors` are squared, and at most two.
-[[nodiscard]] double mean_ratio(const std::vector<double>& errors, const std::vector<double>& unit);
+  /// How often error i counts in the mean.
+  [[nodiscard]] int count(std::size_t i) const { return i == 1 && fronts_count_twice ? 2 : 1; }
+  /// The geometric mean of root mean square errors over their units. Precondition: `errors` are squared, one or two.
+  [[nodiscard]] double mean_ratio(const std::vector<double>& errors) const;
+};
 
 class Accuracy {
  public:
@@ -50,7 +52,7 @@ class Accuracy {
 
   /// Takes one step. Returns false if there is none, or if it must stop.
   bool descend(const MustStop& must_stop);
-  /// mean_ratio() after the last step, or without a model E.
+  /// The mean ratio of errors after the last step, or without a model E.
   [[nodiscard]] double measure() const { return now_.measure; }
 
  private:

@@ -183,7 +183,8 @@ class Driver : Run {
       in_vain = best_bad_ < before ? 0 : in_vain + 1;
     }
     repair_in_patches();
-    if (best_bad_ == 0 && lowers_errors() && !changes_least()) widen_margins();
+    if (best_bad_ == 0 && criterion_ == Criterion::well_centered && lowers_errors() && !changes_least())
+      widen_margins();
     if (best_bad_ == 0 && options_.tets.small_margin > 0) {
       draft_ = *best_.kept;
       repair_patches({criterion_, options_.tets.repair_trials, options_.tets.small_margin, false,
@@ -267,17 +268,18 @@ class Driver : Run {
   }
   /// Lowers the errors of the scheme. The best mesh is the one with the least error.
   void lower_errors() {
-    if (error_ != nullptr && unit_.empty()) unit_ = error_->errors(best_.kept->mesh);  // has no negative coefficient
+    if (errors_.model != nullptr && errors_.unit.empty())  // the input had negative coefficients
+      errors_.unit = errors_.model->errors(best_.kept->mesh);
     const auto error_of = [this](const TetMesh& mesh) { return error_ratio_of(mesh); };
     begin_phase(error_of);
-    const bool has_gradient = !unit_.empty() && error_->has_gradient();
-    const AccuracyErrors lowered = has_gradient ? AccuracyErrors{error_, unit_} : AccuracyErrors{};
+    const bool has_gradient = !errors_.unit.empty() && errors_.model->has_gradient();
+    const AccuracyErrors lowered = has_gradient ? errors_ : AccuracyErrors{};
     IdVector<VertexId, Mobility> mobility = draft_.mobilities();
     int steps = 0;
     while (descend(lowered, mobility, steps)) {
     }
     // A run that must stop does not measure any more: it keeps the mesh before these steps.
-    if (lowered.model == nullptr && !(error_ && stopped_early())) keep_if_best(error_of(draft_.mesh));
+    if (lowered.model == nullptr && !(errors_.model && stopped_early())) keep_if_best(error_of(draft_.mesh));
   }
   /// Lets all corners of violating tetrahedra keep their place, if there are more than in the best mesh.
   bool kept_at_violations(IdVector<VertexId, Mobility>& mobility) {

@@ -10,7 +10,6 @@
 #include "base/text.hpp"
 #include "optimize/run/changes.hpp"
 #include "tets/mesh/tables.hpp"
-#include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/hot_sweeps.hpp"
 #include "tets/optimize/mobility.hpp"
 #include "tets/optimize/violations.hpp"
@@ -60,7 +59,7 @@ std::string smaller_angle_note(double before, double after) {
 Run::Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
     : RunOf(options, hooks),
       result_(mesh),
-      error_(model_of(mesh, options, hooks)),
+      errors_({model_of(mesh, options, hooks), {}, options.scheme == Scheme::vertex}),
       criterion_(lowers_hot(options) ? Criterion::well_centered : criterion_of(options.scheme)),
       hot_(kHotEnergies[static_cast<std::size_t>(options.star)]),
       draft_(mesh, mobilities(mesh, options)),
@@ -69,9 +68,9 @@ Run::Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hoo
   best_.kept.emplace(std::move(mesh), draft_.mobility);
   begin_sweeps();
   report.objective_before = objective_of(draft_.mesh);
-  if (error_ != nullptr) unit_ = error_->errors(draft_.mesh);
+  if (errors_.model != nullptr) errors_.unit = errors_.model->errors(draft_.mesh);
   record();
-  if (changes_least() || ((error_ != nullptr || lowers_hot(options_)) && best_bad_ == 0)) input_ = draft_;
+  if (changes_least() || ((errors_.model != nullptr || lowers_hot(options_)) && best_bad_ == 0)) input_ = draft_;
 }
 
 double Run::limit_of_angles() const {
@@ -85,9 +84,9 @@ double Run::objective_of(const TetMesh& mesh) const {
 }
 
 double Run::error_ratio_of(const TetMesh& mesh) const {
-  if (unit_.empty()) return 0;
-  const std::vector<double> errors = error_->errors(mesh);
-  return errors.empty() ? HUGE_VAL : mean_ratio(errors, unit_);
+  if (errors_.unit.empty()) return 0;
+  const std::vector<double> errors = errors_.model->errors(mesh);
+  return errors.empty() ? HUGE_VAL : errors_.mean_ratio(errors);
 }
 
 bool Run::is_stopped(double fraction) {
@@ -125,10 +124,10 @@ void Run::keep_if_best(double measure, bool takes_equal) {
 
 /// Says whether a good input has a smaller error of some kind than the best mesh.
 bool Run::is_input_better() const {
-  if (input_.mesh.n_vertices() == 0 || unit_.empty() || stopped_early()) return false;
-  const std::vector<double> errors = error_->errors(best_.kept->mesh);
+  if (input_.mesh.n_vertices() == 0 || errors_.unit.empty() || stopped_early()) return false;
+  const std::vector<double> errors = errors_.model->errors(best_.kept->mesh);
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (errors[i] > unit_[i]) return true;
+    if (errors[i] > errors_.unit[i]) return true;
   }
   return errors.empty();
 }

@@ -9,6 +9,7 @@
 #include "temper/detail/criterion.hpp"
 #include "temper/tets/optimize.hpp"
 #include "tets/energy/hot.hpp"
+#include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/draft.hpp"
 
 namespace temper::tets {
@@ -24,7 +25,7 @@ class Run : protected RunOf<OptimizeHooks, OptimizeReport> {
   [[nodiscard]] bool changes_least() const { return options_.change == Change::least; }
   /// A run without a scheme lowers errors if there is a model of them: offsets alone cost as much as all sweeps.
   [[nodiscard]] bool lowers_errors() const {
-    return criterion_ != Criterion::well_centered || (error_ != nullptr && !lowers_hot(options_));
+    return criterion_ != Criterion::well_centered || (errors_.model != nullptr && !lowers_hot(options_));
   }
   /// The HOT energy to lower, or the energy at the last γ.
   [[nodiscard]] double objective_of(const TetMesh& mesh) const;
@@ -67,14 +68,13 @@ class Run : protected RunOf<OptimizeHooks, OptimizeReport> {
   std::size_t n_before_ = result_.n_vertices();
 
  protected:
-  const DiscretizationError* error_;  ///< Null for large meshes, and where few places change
+  AccuracyErrors errors_;  ///< The model is null for large meshes, and where few places change
   const Criterion criterion_;
   const HotEnergy hot_;
   Draft draft_, input_;  ///< input_: empty, unless it may be given back or compared with
   Best<Draft> best_;
   std::size_t best_bad_ = 0;
   double gamma_ = 1;
-  std::vector<double> unit_;            ///< The errors that count as 1
   double cosine_before_, most_cosine_;  ///< of dihedral angles: the largest one of the input, and the limit
   bool many_are_bad_ = false;
   std::size_t places_left_ = 0;  ///< Bad tetrahedra that made the whole mesh change, with Change::least
