@@ -4,7 +4,6 @@
 // list all edges of the mesh. Marked points are fixed, unless they list vertices. Points of fixed tags are fixed, too,
 // and points that the file calls required.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include "io/conversion/data_update.hpp"
 #include "io/conversion/edge_lines.hpp"
+#include "io/conversion/fixed_points.hpp"
 #include "io/conversion/format_traits.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/conversion/kept_points.hpp"
@@ -81,75 +81,12 @@ class KeptTriangleNames final : public KeptNames<InputNames> {
   [[nodiscard]] std::string triangle_where(std::size_t i) const override { return all().triangle_where(i); }
 };
 
-/// A tag, as a user writes it: its number or its physical name.
-struct TagSet {
-  std::vector<std::int32_t> points, lines, triangles;
-};
-
-std::string available_tags(const MeshFile& file) {
-  std::vector<std::int32_t> tags(file.lines.tags);
-  tags.insert(tags.end(), file.marked_points.tags.begin(), file.marked_points.tags.end());
-  std::sort(tags.begin(), tags.end());
-  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
-  std::string result;
-  for (const PhysicalName& n : file.names) result += text(result.empty() ? "" : ", ", n.name);
-  for (std::size_t i = 0; i < std::min(tags.size(), kNamed); ++i) result += text(result.empty() ? "" : ", ", tags[i]);
-  return result.empty() ? "none" : result;
-}
-
-TagSet find_tags(const MeshFile& file, std::span<const std::string> wanted) {
-  TagSet set;
-  for (const std::string& tag : wanted) {
-    bool found = false;
-    for (const PhysicalName& n : file.names) {
-      if (n.name != tag) continue;
-      found = true;
-      (n.dimension == 0 ? set.points : n.dimension == 1 ? set.lines : set.triangles).push_back(n.tag);
-    }
-    if (found) continue;
-    std::int32_t number = 0;
-    const auto [end, error] = std::from_chars(tag.data(), tag.data() + tag.size(), number);
-    const auto has = [&](const std::vector<std::int32_t>& tags) {
-      return std::find(tags.begin(), tags.end(), number) != tags.end();
-    };
-    if (error == std::errc() && end == tag.data() + tag.size() &&
-        (has(file.lines.tags) || has(file.marked_points.tags) || has(file.triangles.tags))) {
-      set.points.push_back(number);
-      set.lines.push_back(number);
-      set.triangles.push_back(number);
-      continue;
-    }
-    fail(ErrorCode::invalid_option, file.path, "no points, lines or triangles have the tag '", tag,
-         "'; there are: ", available_tags(file));
-  }
-  return set;
-}
-
-bool contains(const std::vector<std::int32_t>& tags, std::int32_t tag) {
-  return std::find(tags.begin(), tags.end(), tag) != tags.end();
-}
-
-// If the boundary turns by more than this (radians), the vertex is a corner, and stays anyway. The optimizer's own
-// bound of what is straight is far lower.
-constexpr double kCorner = 1e-6;
-
-bool is_corner(const Mesh& mesh, VertexId v) {
-  const HalfedgeId out = mesh.outgoing(v);
-  HalfedgeId last = out;
-  for (const HalfedgeId h : mesh.star(v)) last = h;
-  const VertexId before = mesh.opposite(last), after = mesh.target(out);
-  const auto [p, a, b] = mesh.points(v, before, after);
-  const Vec3 from = mesh.space().chord(a, p), to = mesh.space().chord(p, b);
-  const double turn = dot(mesh.space().up(p), cross(from, to));
-  return dot(from, to) < 0 || std::abs(turn) > kCorner * length(from) * length(to);
-}
-
 class MeshMaker {
  public:
   MeshMaker(const MeshFile& file, Executor* executor) : file_(file), executor_(executor) {}
   Expected<LoadedMesh> make(std::span<const std::string> fixed_tags) {
     number_vertices();
-    auto built = build(fixed_points(fixed_tags));
+    auto built = build(fixed_points(file_, loaded_.vertex_of_point, fixed_tags));
     if (!built) {
       InputError error = with_known_cause(built.error(), file_);
       if (error.where.empty()) error.where = file_.path;
@@ -165,8 +102,8 @@ class MeshMaker {
     constrain_lines();
     keep_quadrilaterals();
     keep_flagged_faces();
-    fix_ends_of_tags();
-    fix_marked_points();
+    fix_ends_of_tags(file_, edges_, loaded_.mesh);
+    fix_marked_points(file_, loaded_.vertex_of_point, loaded_.mesh);
     return std::move(loaded_);
   }
 
@@ -180,45 +117,6 @@ class MeshMaker {
   }
   [[nodiscard]] const InputNames& names() const { return file_.numbering ? *file_.numbering : counting_; }
   [[nodiscard]] bool whole() const { return loaded_.vertex_of_point.n_kept() == file_.points.size(); }
-  [[nodiscard]] std::vector<std::int32_t> fixed_points(std::span<const std::string> wanted) const {
-    const TagSet tags = find_tags(file_, wanted);
-    std::vector<std::int32_t> fixed = required_points(file_.point_data);
-    for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
-      if (contains(tags.points, file_.marked_points.tags[i])) fixed.push_back(file_.marked_points[i]);
-    }
-    for (std::size_t i = 0; i < file_.lines.size(); ++i) {
-      if (contains(tags.lines, file_.lines.tags[i]))
-        fixed.insert(fixed.end(), file_.lines[i].begin(), file_.lines[i].end());
-    }
-    const std::vector<bool> inside = triangles_of(tags.triangles);
-    for (std::size_t t = 0; t < inside.size(); ++t) {
-      if (inside[t]) fixed.insert(fixed.end(), file_.triangles[t].begin(), file_.triangles[t].end());
-    }
-    std::sort(fixed.begin(), fixed.end());
-    fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
-    std::erase_if(fixed, [&](std::int32_t p) { return loaded_.vertex_of_point[static_cast<std::size_t>(p)] < 0; });
-    for (std::int32_t& p : fixed) p = loaded_.vertex_of_point[static_cast<std::size_t>(p)];
-    return fixed;
-  }
-  /// Says of each triangle whether it is of one of these regions, or groups. Empty: none is.
-  [[nodiscard]] std::vector<bool> triangles_of(const std::vector<std::int32_t>& tags) const {
-    std::vector<bool> inside(tags.empty() ? 0 : file_.triangles.size());
-    const auto add = [&](const std::vector<std::int32_t>& of_triangles, const auto& is_wanted) {
-      for (std::size_t t = 0; t < std::min(inside.size(), of_triangles.size()); ++t)
-        inside[t] = inside[t] || is_wanted(of_triangles[t]);
-    };
-    const auto is_of_tags = [&](std::int32_t tag) { return contains(tags, tag); };
-    add(file_.triangles.tags, is_of_tags);
-    for (const DataArray& array : file_.triangles.data) {
-      const std::optional<std::int32_t> group = further_group(array);
-      const bool is_wanted_group = group && contains(tags, *group);
-      if (tags.empty() || (!is_wanted_group && array.name != kFirstGroup)) continue;
-      const auto values = to_int32(array.values);
-      if (!values || array.components != 1) continue;
-      is_wanted_group ? add(*values, [](std::int32_t value) { return value != 0; }) : add(*values, is_of_tags);
-    }
-    return inside;
-  }
   // The file's own arrays when every point is used; else copies without the others.
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed) const {
     const auto& vertex = loaded_.vertex_of_point;
@@ -331,80 +229,6 @@ class MeshMaker {
     }
     keep_faces(loaded_.mesh, faces);
   }
-  /// Fixes points of straight pieces of the boundary if tagged lines end there or the tag changes. If such a point
-  /// slid, the user's groups would change their shape.
-  void fix_ends_of_tags() {
-    Mesh& mesh = loaded_.mesh;
-    std::vector<std::array<std::uint32_t, 3>> ends;  // vertex, tag and edge of lines on the boundary
-    for (std::size_t i = 0; i < file_.lines.size(); ++i) {
-      const HalfedgeId h = edges_[i];
-      if (!h.valid() || !mesh.is_boundary(h)) continue;
-      for (const VertexId v : {mesh.origin(h), mesh.target(h)})
-        ends.push_back({v.index, static_cast<std::uint32_t>(file_.lines.tags[i]), h.index});
-    }
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      const auto continues = [&](std::size_t other) {
-        return other < ends.size() && ends[other][0] == ends[i][0] && ends[other][1] == ends[i][1];
-      };
-      const VertexId v(ends[i][0]);
-      if (!continues(i + 1) && !continues(i - 1) && !is_corner(mesh, v)) mesh.set_fixed(v, true);
-    }
-  }
-  /// Fixes marked points: they are places that the user chose, such as wells. But marks may also list vertices, and
-  /// then they fix nothing:
-  ///   - if all vertices are marked
-  ///   - tags of vertices of the boundary, if all of these are marked (Triangle)
-  ///   - tags of lines that pass through one of their points, unless they have a name for points
-  ///
-  /// A tag of 0 is none. Pairs across levees stay opposite: they are fixed.
-  void fix_marked_points() {
-    Mesh& mesh = loaded_.mesh;
-    IdVector<VertexId, std::uint8_t> marked(mesh.n_vertices());
-    std::vector<std::pair<VertexId, std::int32_t>> marks, of_lines;
-    for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
-      const std::int32_t v = loaded_.vertex_of_point[static_cast<std::size_t>(file_.marked_points[i])];
-      if (v < 0 || file_.marked_points.tags[i] == 0) continue;
-      marks.emplace_back(static_cast<std::size_t>(v), file_.marked_points.tags[i]);
-      marked[marks.back().first] = 1;
-    }
-    if (marks.empty() || std::find(marked.begin(), marked.end(), 0) == marked.end()) return;
-    bool all_of_boundary = true;
-    for (const HalfedgeId h : mesh.halfedges())
-      all_of_boundary = all_of_boundary && (!mesh.is_boundary(h) || marked[mesh.origin(h)] != 0);
-    for (std::size_t i = 0; i < file_.lines.size(); ++i) {
-      for (const std::int32_t p : file_.lines[i]) {
-        const std::int32_t v = loaded_.vertex_of_point[static_cast<std::size_t>(p)];
-        if (v >= 0) of_lines.emplace_back(static_cast<std::size_t>(v), file_.lines.tags[i]);
-      }
-    }
-    std::sort(of_lines.begin(), of_lines.end());
-    std::vector<std::int32_t> lists, named;
-    for (const PhysicalName& n : file_.names) {
-      if (n.dimension == 0) named.push_back(n.tag);
-    }
-    std::vector<std::int32_t> paired;
-    if (const DataArray* const side = find(file_.marked_points.data, kPairSide)) {
-      const std::vector<double> sides = to_doubles(Values(side->values));
-      for (std::size_t i = 0; i < std::min(sides.size(), file_.marked_points.tags.size()); ++i) {
-        if (sides[i] == 1 && !contains(paired, file_.marked_points.tags[i]))
-          paired.push_back(file_.marked_points.tags[i]);
-      }
-    }
-    for (const auto& mark : marks) {
-      const auto [v, tag] = mark;
-      if (contains(paired, tag)) continue;
-      const bool of_boundary = all_of_boundary && mesh.is_boundary(v);
-      const bool of_line = !contains(named, tag) && std::binary_search(of_lines.begin(), of_lines.end(), mark);
-      if (of_boundary || of_line) lists.push_back(tag);
-    }
-    std::sort(lists.begin(), lists.end());
-    for (const auto& [v, tag] : marks) {
-      if (!std::binary_search(lists.begin(), lists.end(), tag)) mesh.set_fixed(v, true);
-    }
-  }
-
   const MeshFile& file_;
   Executor* executor_;
   InputNames counting_;

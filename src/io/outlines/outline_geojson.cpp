@@ -91,6 +91,10 @@ void warn_of_misspelt(const JsonValue& properties, const std::string& feature,
   }
 }
 
+void add_size(Outline& outline, const std::array<std::int32_t, 2>& points, const Feature& about) {
+  if (about.size) outline.sizes.push_back({points, *about.size});
+}
+
 class GeoJsonReader {
  public:
   GeoJsonReader(std::string path, std::string_view format, JsonValue root)
@@ -127,8 +131,7 @@ class GeoJsonReader {
   [[nodiscard]] std::string where(const JsonValue& value) const {
     return value.line == 0 ? path_ : text(path_, ":", value.line);
   }
-  template <class... Parts>
-  [[noreturn]] void fail_at(const JsonValue& value, ErrorCode code, const Parts&... message) const {
+  [[noreturn]] void fail_at(const JsonValue& value, ErrorCode code, const auto&... message) const {
     fail(code, where(value), message...);
   }
 
@@ -142,9 +145,8 @@ class GeoJsonReader {
   }
 
   void feature(const JsonValue& value, const std::string& name) {
-    if (value.text("type") != "Feature") {
+    if (value.text("type") != "Feature")
       fail_at(value, ErrorCode::syntax, name, ": expected a Feature, found ", kind(value));
-    }
     Feature about;
     about.name = name;
     if (const JsonValue* properties = value.find("properties")) {
@@ -205,32 +207,32 @@ class GeoJsonReader {
       for (const JsonValue& inner : items(value, "geometries")) geometry(inner, about);
       return;
     }
-    const JsonValue* coordinates = value.find("coordinates");
-    const bool known = type == "Polygon" || type == "MultiPolygon" || type == "LineString" ||
-                       type == "MultiLineString" || type == "Point" || type == "MultiPoint";
-    if (!known) {
+    const bool is_multiple = type.starts_with("Multi");
+    const std::string_view part = type.substr(is_multiple ? 5 : 0);
+    if (part != "Polygon" && part != "LineString" && part != "Point") {
       fail_at(value, ErrorCode::syntax, about.name,
               ": expected a geometry (Polygon, MultiPolygon, LineString, MultiLineString, Point, "
               "MultiPoint, GeometryCollection), found ",
               kind(value));
     }
+    const JsonValue* coordinates = value.find("coordinates");
     if (coordinates == nullptr) fail_at(value, ErrorCode::syntax, about.name, ": has no \"coordinates\"");
     std::vector<const JsonValue*> parts = {coordinates};
-    if (type.starts_with("Multi")) {
+    if (is_multiple) {
       parts.clear();
       for (const JsonValue& one : array(*coordinates, about.name)) parts.push_back(&one);
     }
-    if (type.ends_with("Polygon")) polygons(parts, about);
-    if (type.ends_with("LineString")) lines(parts, about);
-    if (type.ends_with("Point")) marks(parts, about);
+    if (part == "Polygon") polygons(parts, about);
+    if (part == "LineString") lines(parts, about);
+    if (part == "Point") marks(parts, about);
   }
 
   void lines(const std::vector<const JsonValue*>& all, const Feature& about) {
     const std::size_t first = document_.file.outline.segments.size();
     for (const JsonValue* one : all) line(*one, about, about.name);
     name_segments(about, first);
-    for (std::size_t s = first; s < document_.file.outline.segments.size(); ++s)
-      add_size(document_.file.outline.segments[s].ends, about);
+    Outline& o = document_.file.outline;
+    for (std::size_t s = first; s < o.segments.size(); ++s) add_size(o, o.segments[s].ends, about);
   }
 
   void name_segments(const Feature& about, std::size_t first) {
@@ -243,16 +245,13 @@ class GeoJsonReader {
   void marks(const std::vector<const JsonValue*>& positions, const Feature& about) {
     NamedElements named{0, about.tag.value_or(0), about.group, {}};
     for (const JsonValue* position : positions) named.elements.push_back(well(*position, about));
-    for (const std::int32_t p : named.elements) names_.add_tag(p, named.tag), add_size({p, p}, about);
+    for (const std::int32_t p : named.elements)
+      names_.add_tag(p, named.tag), add_size(document_.file.outline, {p, p}, about);
     names_.add(std::move(named));
   }
-  void add_size(const std::array<std::int32_t, 2>& points, const Feature& about) {
-    if (about.size) document_.file.outline.sizes.push_back({points, *about.size});
-  }
   const std::vector<JsonValue>& array(const JsonValue& value, const std::string& name) const {
-    if (value.type != Type::array) {
+    if (value.type != Type::array)
       fail_at(value, ErrorCode::syntax, name, ": expected an array, found ", describe(value));
-    }
     return value.items;
   }
 

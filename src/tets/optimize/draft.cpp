@@ -56,73 +56,140 @@ std::vector<std::uint32_t> PatchMaker::at(const Patch& patch, const std::vector<
   return found;
 }
 
-Patch PatchMaker::make(std::vector<TetId> tetrahedra) {
-  const TetMesh& mesh = whole_.mesh;
-  Patch patch;
+/// What a patch is built from.
+struct PatchMaker::Parts {
+  std::vector<Vec3> points;
+  std::vector<double> weights;
   std::vector<std::array<std::int32_t, 4>> corners;
+  std::vector<std::array<std::int32_t, 3>> faces;
+  std::vector<std::array<std::int32_t, 2>> lines;
   std::vector<std::int32_t> regions, face_tags, line_tags;
-  std::vector<std::array<VertexId, 2>> edges;
+  IdVector<VertexId, Mobility> mobility;
+  std::vector<std::array<VertexId, 2>> edges;  // sorted
+  std::unordered_set<std::uint32_t> inside;    // tetrahedra
+
+  [[nodiscard]] bool is_inside(HalffaceId h) const {
+    return h.valid() && inside.contains(TetMesh::tetrahedron(h).index);
+  }
+  [[nodiscard]] Draft built() && {
+    TetMeshInput input;
+    input.points = points, input.weights = weights;
+    input.tetrahedra = corners, input.regions = regions;
+    input.faces = faces, input.face_tags = face_tags;
+    input.lines = lines, input.line_tags = line_tags;
+    std::optional<TetMesh> mesh = rebuilt(input);
+    return mesh ? Draft(*std::move(mesh), std::move(mobility)) : Draft();
+  }
+};
+
+Patch PatchMaker::make(std::vector<TetId> tetrahedra) {
+  Patch patch;
+  Parts parts;
+  add_tetrahedra(tetrahedra, patch, parts);
+  for (const VertexId v : patch.vertices) {
+    const auto link = stars_.link(v);
+    const bool is_inner = std::all_of(link.begin(), link.end(), [&](HalffaceId h) { return parts.is_inside(h); });
+    parts.points.push_back(whole_.mesh.position(v));
+    parts.weights.push_back(whole_.mesh.weight(v));
+    parts.mobility.push_back(is_inner ? whole_.mobility_of(v) : Mobility::none);
+  }
+  add_tags(patch, parts);
+  std::vector<std::array<VertexId, 3>> rim = rim_of(tetrahedra, parts);
+  patch.draft = std::move(parts).built();
+  patch.draft.rim = std::move(rim);
+  for (const VertexId v : patch.vertices) number_[v] = -1;
+  patch.tetrahedra = std::move(tetrahedra);
+  return patch;
+}
+
+void PatchMaker::add_tetrahedra(const std::vector<TetId>& tetrahedra, Patch& patch, Parts& parts) {
   for (const TetId t : tetrahedra) {
-    const auto& c = mesh.corners(t);
+    const auto& c = whole_.mesh.corners(t);
     for (const VertexId v : c) {
       if (number_[v] >= 0) continue;
       number_[v] = static_cast<std::int32_t>(patch.vertices.size());
       patch.vertices.push_back(v);
     }
-    corners.push_back(numbers_of(c, number_));
-    regions.push_back(mesh.region(t));
-    for (const auto& ends : kEdgeCorners) edges.push_back(edge(c[std::size_t(ends[0])], c[std::size_t(ends[1])]));
+    parts.corners.push_back(numbers_of(c, number_));
+    parts.regions.push_back(whole_.mesh.region(t));
+    for (const auto& ends : kEdgeCorners) parts.edges.push_back(edge(c[std::size_t(ends[0])], c[std::size_t(ends[1])]));
+    parts.inside.insert(t.index);
   }
-  sort_unique(edges);
-  std::unordered_set<std::uint32_t> inside;
-  for (const TetId t : tetrahedra) inside.insert(t.index);
-  const auto is_inside = [&](HalffaceId h) { return h.valid() && inside.contains(TetMesh::tetrahedron(h).index); };
-  std::vector<Vec3> points;
-  std::vector<double> weights;
-  IdVector<VertexId, Mobility> mobility;
-  for (const VertexId v : patch.vertices) {
-    const auto link = stars_.link(v);
-    points.push_back(mesh.position(v));
-    weights.push_back(mesh.weight(v));
-    mobility.push_back(std::all_of(link.begin(), link.end(), is_inside) ? whole_.mobility_of(v) : Mobility::none);
-  }
-  std::vector<std::array<std::int32_t, 3>> faces;
-  std::vector<std::array<std::int32_t, 2>> lines;
+  sort_unique(parts.edges);
+}
+
+void PatchMaker::add_tags(Patch& patch, Parts& parts) const {
+  const TetMesh& mesh = whole_.mesh;
   for (const std::uint32_t i : at(patch, faces_)) {
     const TaggedFace& f = mesh.tagged_faces()[i];
-    if (!is_inside(f.face) && !is_inside(mesh.twin(f.face))) continue;
-    faces.push_back(numbers_of(mesh.vertices(f.face), number_));
-    face_tags.push_back(f.tag);
+    if (!parts.is_inside(f.face) && !parts.is_inside(mesh.twin(f.face))) continue;
+    parts.faces.push_back(numbers_of(mesh.vertices(f.face), number_));
+    parts.face_tags.push_back(f.tag);
     patch.faces.push_back(i);
   }
   for (const std::uint32_t i : at(patch, lines_)) {
     const TaggedLine& l = mesh.tagged_lines()[i];
-    if (!std::binary_search(edges.begin(), edges.end(), edge(l.ends[0], l.ends[1]))) continue;
-    lines.push_back(numbers_of(l.ends, number_));
-    line_tags.push_back(l.tag);
+    if (!std::binary_search(parts.edges.begin(), parts.edges.end(), edge(l.ends[0], l.ends[1]))) continue;
+    parts.lines.push_back(numbers_of(l.ends, number_));
+    parts.line_tags.push_back(l.tag);
     patch.lines.push_back(i);
   }
-  TetMeshInput input;
-  input.points = points, input.weights = weights;
-  input.tetrahedra = corners, input.regions = regions;
-  input.faces = faces, input.face_tags = face_tags;
-  input.lines = lines, input.line_tags = line_tags;
-  if (std::optional<TetMesh> built = rebuilt(input)) patch.draft = Draft(*std::move(built), std::move(mobility));
+}
+
+std::vector<std::array<VertexId, 3>> PatchMaker::rim_of(const std::vector<TetId>& tetrahedra,
+                                                        const Parts& parts) const {
+  std::vector<std::array<VertexId, 3>> rim;
   for (const TetId t : tetrahedra) {
     for (int f = 0; f < 4; ++f) {
       const HalffaceId h = TetMesh::halfface(t, f);
-      if (mesh.is_boundary(h) || is_inside(mesh.twin(h))) continue;
-      std::array<VertexId, 3> face = mesh.vertices(h);
+      if (whole_.mesh.is_boundary(h) || parts.is_inside(whole_.mesh.twin(h))) continue;
+      std::array<VertexId, 3> face = whole_.mesh.vertices(h);
       for (VertexId& v : face) v = VertexId(number_[v]);
       std::sort(face.begin(), face.end());
-      patch.draft.rim.push_back(face);
+      rim.push_back(face);
     }
   }
-  std::sort(patch.draft.rim.begin(), patch.draft.rim.end());
-  for (const VertexId v : patch.vertices) number_[v] = -1;
-  patch.tetrahedra = std::move(tetrahedra);
-  return patch;
+  std::sort(rim.begin(), rim.end());
+  return rim;
 }
+
+namespace {
+
+/// Adds a patch to the mesh that is built next.
+void add_patch(const Patch& patch, const Names& of_whole, NextMesh& next, IdVector<VertexId, Mobility>& mobility) {
+  const TetMesh& part = patch.draft.mesh;
+  const Names& names = patch.draft.names;
+  IdVector<VertexId, NextMesh::Number> number;
+  for (const VertexId v : part.vertices()) {
+    const VertexId name = names.vertices[v];
+    if (name.index < patch.vertices.size()) {
+      number.push_back(next.number(patch.vertices[name]));
+      next.set_point(number[v], part.point(v));
+    } else {
+      number.push_back(next.add_vertex(part.point(v)));
+      mobility.push_back(patch.draft.mobility[name]);
+    }
+  }
+  const auto numbers = [&](const auto& corners) { return numbers_of(corners, number); };
+  for (const TetId t : part.tetrahedra()) next.add_tetrahedron(numbers(part.corners(t)), part.region(t));
+  // A tag on the border of two patches is in both, and neither has changed it: the first one brings it.
+  std::vector<std::uint8_t> mine;
+  for (const std::uint32_t i : patch.faces) mine.push_back(next.drop_face(i) ? 1 : 0);
+  for (std::size_t i = 0; i < part.tagged_faces().size(); ++i) {
+    const TaggedFace& f = part.tagged_faces()[i];
+    const std::uint32_t name = names.faces[i];
+    if (mine[name] != 0) next.add_face(numbers(part.vertices(f.face)), f.tag, of_whole.faces[patch.faces[name]]);
+  }
+  mine.clear();
+  for (const std::uint32_t i : patch.lines) mine.push_back(next.drop_line(i) ? 1 : 0);
+  for (std::size_t i = 0; i < part.tagged_lines().size(); ++i) {
+    const TaggedLine& l = part.tagged_lines()[i];
+    const std::uint32_t name = names.lines[i];
+    if (mine[name] != 0) next.add_line(numbers(l.ends), l.tag, of_whole.lines[patch.lines[name]]);
+  }
+}
+
+}  // namespace
 
 bool put_back(std::span<const Patch> patches, Draft& whole) {
   const TetMesh& mesh = whole.mesh;
@@ -137,37 +204,7 @@ bool put_back(std::span<const Patch> patches, Draft& whole) {
   }
   NextMesh next(mesh, whole.names, gone, removed);
   IdVector<VertexId, Mobility> mobility = whole.mobility;
-  for (const Patch& patch : patches) {
-    const auto& [part, names, mobility_of_part, flips, rim] = patch.draft;
-    IdVector<VertexId, NextMesh::Number> number;
-    for (const VertexId v : part.vertices()) {
-      const VertexId name = names.vertices[v];
-      if (name.index < patch.vertices.size()) {
-        number.push_back(next.number(patch.vertices[name]));
-        next.set_point(number[v], part.point(v));
-      } else {
-        number.push_back(next.add_vertex(part.point(v)));
-        mobility.push_back(mobility_of_part[name]);
-      }
-    }
-    const auto numbers = [&](const auto& corners) { return numbers_of(corners, number); };
-    for (const TetId t : part.tetrahedra()) next.add_tetrahedron(numbers(part.corners(t)), part.region(t));
-    // A tag on the border of two patches is in both, and neither has changed it: the first one brings it.
-    std::vector<std::uint8_t> mine;
-    for (const std::uint32_t i : patch.faces) mine.push_back(next.drop_face(i) ? 1 : 0);
-    for (std::size_t i = 0; i < part.tagged_faces().size(); ++i) {
-      const TaggedFace& f = part.tagged_faces()[i];
-      const std::uint32_t name = names.faces[i];
-      if (mine[name] != 0) next.add_face(numbers(part.vertices(f.face)), f.tag, whole.names.faces[patch.faces[name]]);
-    }
-    mine.clear();
-    for (const std::uint32_t i : patch.lines) mine.push_back(next.drop_line(i) ? 1 : 0);
-    for (std::size_t i = 0; i < part.tagged_lines().size(); ++i) {
-      const TaggedLine& l = part.tagged_lines()[i];
-      const std::uint32_t name = names.lines[i];
-      if (mine[name] != 0) next.add_line(numbers(l.ends), l.tag, whole.names.lines[patch.lines[name]]);
-    }
-  }
+  for (const Patch& patch : patches) add_patch(patch, whole.names, next, mobility);
   auto made = next.build();
   if (!made) return false;
   std::tie(whole.mesh, whole.names) = *std::move(made);

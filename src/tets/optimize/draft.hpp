@@ -51,7 +51,13 @@ class PatchMaker {
     VertexId least;  // of the face or line
     std::uint32_t number;
   };
+  struct Parts;
   [[nodiscard]] std::vector<std::uint32_t> at(const Patch& patch, const std::vector<Tag>& tags) const;
+  void add_tetrahedra(const std::vector<TetId>& tetrahedra, Patch& patch, Parts& parts);
+  /// Adds the tagged faces and lines of the tetrahedra.
+  void add_tags(Patch& patch, Parts& parts) const;
+  [[nodiscard]] std::vector<std::array<VertexId, 3>> rim_of(const std::vector<TetId>& tetrahedra,
+                                                            const Parts& parts) const;
 
   const Draft& whole_;
   VertexStars stars_;

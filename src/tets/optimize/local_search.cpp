@@ -106,6 +106,17 @@ void keep_rim(Draft& patch) {
   }
 }
 
+/// Says whether all tetrahedra around some corners are in the patch: other tetrahedra than its place are tried along
+/// with it then.
+template <class IsInPatch>
+bool may_all_change(const TetMesh& mesh, const VertexStars& stars, const std::array<VertexId, 4>& corners,
+                    const IsInPatch& is_in_patch) {
+  return std::all_of(corners.begin(), corners.end(), [&](VertexId v) {
+    const auto link = stars.link(v);
+    return std::all_of(link.begin(), link.end(), [&](HalffaceId h) { return is_in_patch(mesh.tetrahedron(h)); });
+  });
+}
+
 /// The corners of a tetrahedron by name.
 std::array<VertexId, 4> names_of(const Draft& draft, TetId t) {
   std::array<VertexId, 4> corners = draft.mesh.corners(t);
@@ -184,19 +195,14 @@ std::vector<Patch> Places::choose(const Draft& draft, Executor* executor) {
     patches.push_back(maker.make(around));
     if (has_rim) keep_rim(patches.back().draft);
     for (const TetId s : around) patch_of_tet[s] = patches.size();
-    const auto may_change = [&](VertexId v) {
-      const auto link = stars.link(v);
-      return std::all_of(link.begin(), link.end(),
-                         [&](HalffaceId h) { return patch_of_tet[TetMesh::tetrahedron(h)] == patches.size(); });
-    };
-    // Other tetrahedra are tried along with t if all their corners may change.
     const bool alone = options_.search_each && patches.back().tetrahedra.size() < mesh.n_tetrahedra();
     chosen_.push_back({{}, work});
     std::vector<Corners>& along = chosen_.back().along;
     for (const TetId s : around) {
-      const auto& corners = mesh.corners(s);
-      if (s == t || (!alone && is_needy[s] != 0 && std::all_of(corners.begin(), corners.end(), may_change)))
-        along.push_back(names_of(draft, s));
+      const bool is_tried = !alone && is_needy[s] != 0 && may_all_change(mesh, stars, mesh.corners(s), [&](TetId u) {
+        return patch_of_tet[u] == patches.size();
+      });
+      if (s == t || is_tried) along.push_back(names_of(draft, s));
     }
     for (const Corners& corners : along) ++tries_[corners];
   }

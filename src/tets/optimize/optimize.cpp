@@ -1,9 +1,8 @@
-// The driver: sweeps along the schedule of γ, repairs, and the descent of errors.
+// The driver: weights alone, sweeps along the schedule of γ, repairs (repair_run.hpp), and the descent of errors.
 #include "temper/tets/optimize.hpp"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -15,9 +14,8 @@
 #include "temper/tets/weights.hpp"
 #include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/hot_sweeps.hpp"
-#include "tets/optimize/local_search.hpp"
 #include "tets/optimize/repair.hpp"
-#include "tets/optimize/run.hpp"
+#include "tets/optimize/repair_run.hpp"
 #include "tets/optimize/sweeper.hpp"
 
 namespace temper::tets {
@@ -32,27 +30,14 @@ constexpr double kRelaxation = 1.7;
 // after kLastSweeps at the latest.
 constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
-// Rounds of changes at all bad tetrahedra at once end when kRoundsInVain of them have not lowered the number.
-constexpr std::size_t kRoundsInVain = 4;
-// Rounds at tetrahedra with smaller margins go on while they lower the energy by more than a part. On nine public
-// meshes they lower errors by a fifth, with 7 % more tetrahedra; 0.02 adds 15 % and gains little.
-constexpr double kSmallMargin = 0.01, kGainOfRound = 1e-3;
 // The most sweeps for a HOT energy.
 constexpr int kMostHotSweeps = 32;
-// Tetrahedra that repairs may improve, each time they do: with 5,000 tetrahedra some ten seconds on one core.
-constexpr std::size_t kRepairWork = 300'000, kRepairWorkPerTet = 40;
-// Trials in vain of a first pass over all patches: most of those that help are among the first.
-constexpr int kFewTrials = 2;
 // The constraints on weights alone for each criterion.
 constexpr std::array kConstraints = {Constraints::well_centered, Constraints::coefficients, Constraints::distances};
 
-[[nodiscard]] bool changes_connectivity(const OptimizeOptions& o) {
-  return o.unknowns == temper::Unknowns::positions_and_weights && o.flips != Flips::none && o.tets.repair_trials > 0;
-}
-
-class Driver : Run {
+class Driver : RepairRun {
  public:
-  Driver(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) : Run(mesh, options, hooks) {}
+  Driver(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) : RepairRun(mesh, options, hooks) {}
 
   OptimizeReport run() {
     if (changes_least()) {
@@ -73,7 +58,7 @@ class Driver : Run {
     many_are_bad_ = static_cast<double>(best_bad_) > kManyPlaces * n_tetrahedra;
     const std::size_t at_start = best_bad_;
     if (best_bad_ == 0 || takes_least_weights() || split_surface()) return;
-    if (!many_are_bad_ && changes_connectivity(options_)) repair_in_patches();
+    if (!many_are_bad_ && changes_connectivity()) repair_in_patches();
     const std::size_t left = best_bad_;
     if (left == 0 || stopped_early()) return;
     draft_ = input_;
@@ -90,13 +75,13 @@ class Driver : Run {
   void sweep_and_repair() {
     const bool goes_on = anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma);
     if (criterion_ == Criterion::distances && (best_bad_ == 0 || made_good_by_weights())) return;
-    if (goes_on && changes_connectivity(options_)) repair();
+    if (goes_on && changes_connectivity()) repair();
     if (criterion_ != Criterion::well_centered && !stopped_early()) (void)takes_least_weights();
   }
   bool made_good_by_weights() {
     const Draft start = draft_;
     if (takes_least_weights() || split_surface()) return true;
-    if (!changes_connectivity(options_)) return false;
+    if (!changes_connectivity()) return false;
     repair_in_patches();
     if (best_bad_ == 0) {
       (void)takes_least_weights();
@@ -168,104 +153,7 @@ class Driver : Run {
     record();
     return !stopped_early();
   }
-  [[nodiscard]] bool may_sweep() {
-    if (!stopped_early() && !sweeps_left()) report.stopped = Stopped::max_sweeps;
-    return goes_on();
-  }
 
-  /// Changes the connectivity where sweeps alone are not enough: first at all bad tetrahedra at once, then, from the
-  /// best mesh, in patches. Each round counts as one sweep.
-  void repair() {
-    const SearchOptions of_all = {.criterion = criterion_, .most_cosine = guarded_cosine()};
-    for (std::size_t in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
-      const std::size_t before = best_bad_;
-      if (!may_sweep() || !change_places(of_all)) break;
-      in_vain = best_bad_ < before ? 0 : in_vain + 1;
-    }
-    repair_in_patches();
-    if (best_bad_ == 0 && criterion_ == Criterion::well_centered && lowers_errors() && !changes_least())
-      widen_margins();
-    if (best_bad_ == 0 && options_.tets.small_margin > 0) {
-      draft_ = *best_.kept;
-      repair_patches({criterion_, options_.tets.repair_trials, options_.tets.small_margin, false,
-                      options_.tets.patches == Patches::each});
-    }
-  }
-  /// Makes a round of changes at all places. False: there was nothing to do, or it must stop.
-  bool change_places(const SearchOptions& options) {
-    const bool changes = change_all(
-        draft_, options, [this](double) { return is_stopped(0); }, hooks_.executor);
-    if (changes) end_round(false);
-    return changes;
-  }
-  /// Changes the connectivity at small margins, too, as long as the energy falls: large weights there make errors
-  /// large. A round in vain may be a step to a better mesh, two are not.
-  void widen_margins() {
-    Draft widest = draft_ = *best_.kept;
-    double least = state_of(widest.mesh, kLastGamma, hooks_.executor).energy;
-    SearchOptions options = {.criterion = criterion_, .small_margin = kSmallMargin, .most_cosine = most_cosine_};
-    for (std::size_t in_vain = 0; in_vain < kRoundsInVain && may_sweep();) {
-      options.rank = in_vain;
-      if (!change_places(options) || stopped_early()) break;
-      const SweepRecord& now = report.history.back();
-      const bool is_better = now.bad == 0 && now.energy < (1 - kGainOfRound) * least;
-      in_vain = is_better ? 0 : in_vain + 1;
-      if (is_better) {
-        widest = draft_;
-        least = now.energy;
-      } else if (in_vain % 2 == 0) {
-        draft_ = widest;
-      }
-    }
-    draft_ = std::move(widest);
-    keep_if_best(0, true);
-  }
-  void repair_in_patches() {
-    draft_ = *best_.kept;
-    const int trials = options_.tets.repair_trials;
-    const bool each = options_.tets.patches == Patches::each;
-    for (const double most_cosine : {most_cosine_, guarded_cosine()}) {  // smaller angles only if there is no other way
-      for (const int most : {std::min(kFewTrials, trials), trials}) {
-        if (best_bad_ > 0) repair_patches({criterion_, most, 0, false, each, most_cosine});
-      }
-      if (best_bad_ > 0 && options_.boundary == BoundaryVertices::split)
-        repair_patches({criterion_, trials, 0, true, each, most_cosine});
-    }
-  }
-  void repair_patches(const SearchOptions& options) {
-    if (options.most_in_vain == 0) return;
-    for (Places places(options, repair_work_); may_sweep();) {
-      std::vector<Patch> patches = places.choose(draft_, hooks_.executor);
-      if (patches.empty()) return;
-      std::vector<SearchResult> found(patches.size());
-      std::atomic<bool> stops = false, asks = false;
-      const auto must_stop = [&](std::size_t i) {  // one thread asks at a time
-        if (!stops && !asks.exchange(true)) {
-          stops = is_stopped(double(i) / double(patches.size()));
-          asks = false;
-        }
-        return stops.load();
-      };
-      or_serial(hooks_.executor).run(patches.size(), [&](std::size_t i) {
-        found[i] = search(patches[i].draft, options, [&](double) { return must_stop(i); });
-      });
-      std::vector<Patch> chosen;
-      for (std::size_t i = 0; i < patches.size(); ++i) {
-        places.spend(i, found[i]);
-        if (found[i].is_better) chosen.push_back(std::move(patches[i]));
-      }
-      if (!chosen.empty() && !put_back(chosen, draft_)) return;
-      end_round(true);
-      if (stopped_early()) return;
-      if (report.history.back().bad > best_bad_) {  // patches together violate the criterion
-        draft_ = *best_.kept;
-        continue;
-      }
-      for (std::size_t i = 0; i < patches.size(); ++i) {
-        if (found[i].is_better) places.succeeded(i);
-      }
-    }
-  }
   /// Lowers the errors of the scheme. The best mesh is the one with the least error.
   void lower_errors() {
     if (errors_.model != nullptr && errors_.unit.empty())  // the input had negative coefficients
@@ -322,8 +210,6 @@ class Driver : Run {
       if (i > 0 && before - now <= kTolerance * before) return;
     }
   }
-
-  std::size_t repair_work_ = kRepairWork + kRepairWorkPerTet * draft_.mesh.n_tetrahedra();
 };
 
 }  // namespace

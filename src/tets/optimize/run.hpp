@@ -34,6 +34,10 @@ class Run : protected RunOf<OptimizeHooks, OptimizeReport> {
   /// The largest cosine of a dihedral angle with the guard, and 1 without.
   [[nodiscard]] double guarded_cosine() const { return guards_angles() ? most_cosine_ : 1; }
 
+  [[nodiscard]] bool may_sweep() {
+    if (!stopped_early() && !sweeps_left()) report.stopped = Stopped::max_sweeps;
+    return goes_on();
+  }
   bool is_stopped(double fraction);
   /// Measures the mesh, and keeps it if it is the best so far: by the number of bad tetrahedra, and of equals the last
   /// one if `takes_equal`, else the first one.

@@ -16,6 +16,17 @@ bool is_of_reversed(const NamedGroups& named, std::pair<std::int32_t, std::int32
          (has_boundary || named.contains({dimension, -tag}));
 }
 
+void read_physical_tags(GmshSource& in, Membership& of) {
+  const std::size_t n_physical = in.get_count("physical tags", 2, 4);
+  for (std::size_t k = 0; k < n_physical; ++k) {
+    const auto physical = in.get<std::int32_t>("a physical tag");
+    if (k == 0)
+      of.physical = physical;
+    else
+      of.further.push_back(physical);
+  }
+}
+
 }  // namespace
 
 void GmshEntities::read(GmshSource& in, bool partitioned, const NamedGroups& named) {
@@ -60,14 +71,7 @@ void GmshEntities::read_entity(GmshSource& in, std::int32_t dimension, bool part
   }
   const int n_coordinates = dimension == 0 ? 3 : 6;
   for (int k = 0; k < n_coordinates; ++k) in.get<double>("a coordinate of an entity");
-  const std::size_t n_physical = in.get_count("physical tags", 2, 4);
-  for (std::size_t k = 0; k < n_physical; ++k) {
-    const auto physical = in.get<std::int32_t>("a physical tag");
-    if (k == 0)
-      of.physical = physical;
-    else
-      of.further.push_back(physical);
-  }
+  read_physical_tags(in, of);
   const std::size_t n_bounding = dimension == 0 ? 0 : in.get_count("bounding entities", 2, 4);
   for (std::size_t k = 0; k < n_bounding; ++k) in.get<std::int32_t>("a bounding entity");
   of.is_reversed = is_of_reversed(named, {dimension, of.physical}, n_bounding > 0);

@@ -1,0 +1,31 @@
+// The vertices of a file that must not move.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+/// The vertices of points that the file calls required, and of those with a wanted tag, ascending. Failure: nothing has
+/// a wanted tag.
+[[nodiscard]] std::vector<std::int32_t> fixed_points(const MeshFile& file, const VertexOfPoint& vertex,
+                                                     std::span<const std::string> wanted);
+
+/// Fixes points of straight pieces of the boundary if tagged lines end there or the tag changes. If such a point slid,
+/// the user's groups would change their shape. `edges`: of each line of the file; invalid: it is none of the mesh.
+void fix_ends_of_tags(const MeshFile& file, std::span<const HalfedgeId> edges, Mesh& mesh);
+
+/// Fixes marked points: they are places that the user chose, such as wells. But marks may also list vertices, and then
+/// they fix nothing:
+///   - if all vertices are marked
+///   - tags of vertices of the boundary, if all of these are marked (Triangle)
+///   - tags of lines that pass through one of their points, unless they have a name for points
+///
+/// A tag of 0 is none. Pairs across levees stay opposite: they are fixed.
+void fix_marked_points(const MeshFile& file, const VertexOfPoint& vertex, Mesh& mesh);
+
+}  // namespace temper::io
