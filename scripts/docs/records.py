@@ -23,7 +23,7 @@ VERSION = 1  # of the schema
 # Reports on tetrahedra that are of the same class in Python as those on triangles.
 SAME_CLASS = {"TetOptimizeReport": "OptimizeReport", "TetFieldFrame": "FieldFrame"}
 # Reports that only the program has, and reports that npm has not.
-PROGRAM_ALONE = {"Outcome", "Operators", "TetOperators", "ColumnCounts"}
+PROGRAM_ALONE = {"Outcome", "Verdict", "Operators", "TetOperators", "ColumnCounts"}
 NOT_IN_NPM = {"TetExplanation", "TetReason", "FaceHeight", "DualExplanation", "DualReason", "DataReport", "DiffusionErrors", "DiffusionMatrices", "ErrorCounts", "ErrorMatrices", "ErrorNorms", "ErrorSystem", "FieldFrame"}
 # Fields that Python adds.
 MORE = {

@@ -93,11 +93,20 @@ inline void show_places_of_file(const tets::Quality& /*quality*/, const TetInput
 /// The first number of a report: it changes when a key is removed or its meaning changes. docs/schema has the keys.
 inline constexpr int kSchema = 1;
 
-/// `temper check --json`: the numbers of a mesh, and the outcomes of --require. `points`: mesh vertex → point of the
-/// file; empty when they are the same.
+/// What a target asks for, and how often a mesh violates it.
+struct Verdict {
+  std::string target;
+  Criterion criterion = Criterion::well_centered;
+  std::size_t violations = 0;
+};
+[[nodiscard]] const ReportTable& table_of(const Verdict*);
+
+/// `temper check --json`: the numbers of a mesh, the verdict, and the outcomes of --require. `points`: mesh vertex →
+/// point of the file; empty when they are the same.
 template <class AnyQuality>
 [[nodiscard]] std::string check_json(const std::string& path, const AnyQuality& quality,
-                                     std::span<const std::size_t> points, std::span<const Outcome> outcomes);
+                                     std::span<const std::size_t> points, const Verdict& verdict,
+                                     std::span<const Outcome> outcomes);
 /// One JSON text made of several.
 [[nodiscard]] std::string json_list(std::span<const std::string> reports);
 

@@ -21,11 +21,23 @@ const ReportTable& table_of(const Outcome*) {
   return table;
 }
 
+const ReportTable& table_of(const Verdict*) {
+  static const ReportTable table =
+      report_table<Verdict>("Verdict", "What a target asks for, and how often the mesh violates it.",
+                            {{"target", "Target of --for", "", &Verdict::target},
+                             {"criterion", "Criterion of the target: well_centered, coefficients or distances", "",
+                              [](const Verdict& v) { return std::string(name(v.criterion)); }},
+                             {"violations", "Places that violate the criterion; 0: the mesh has what the solver needs",
+                              "", &Verdict::violations}});
+  return table;
+}
+
 template <class AnyQuality>
 std::string check_json(const std::string& path, const AnyQuality& quality, std::span<const std::size_t> points,
-                       std::span<const Outcome> outcomes) {
+                       const Verdict& verdict, std::span<const Outcome> outcomes) {
   Json json = {{"schema", kSchema}, {"file", path}};
   json.update(json_of(quality, points));
+  json["verdict"] = json_of(verdict);
   json["requirements"] = json_of({field_list(outcomes, false)});
   return dump(json);
 }
@@ -58,8 +70,9 @@ std::string optimize_json(const RunRecord<Subject>& record) {
   return dump(json);
 }
 
-#define TEMPER_MAKE(S)                                                                                      \
-  template std::string check_json(const std::string&, const S::Quality&, Points, std::span<const Outcome>); \
+#define TEMPER_MAKE(S)                                                                           \
+  template std::string check_json(const std::string&, const S::Quality&, Points, const Verdict&, \
+                                  std::span<const Outcome>);                                     \
   template std::string optimize_json(const RunRecord<S>&);
 TEMPER_EACH_SUBJECT(TEMPER_MAKE)
 #undef TEMPER_MAKE

@@ -75,7 +75,7 @@ void add_all(Tables& tables) {
 std::string report_tables_json() {
   Tables tables;
   add_all<Quality, tets::Quality, OptimizeReport, tets::OptimizeReport, Progress, TraceEvent, io::DataReport, Outcome,
-          DecSummary, tets::DecSummary, DecRecord, TetDecRecord, ExplanationReport, tets::ExplanationReport,
+          Verdict, DecSummary, tets::DecSummary, DecRecord, TetDecRecord, ExplanationReport, tets::ExplanationReport,
           DualExplanation>(tables);
 #ifdef TEMPER_WITH_ERRORS
   add_all<ErrorReport, tets::ErrorReport, DiffusionErrors>(tables);

@@ -144,7 +144,8 @@ class Checks {
     if (!files_.page.empty())
       outputs_.write_text(files_.page, check_html(command_line(command_, {input.path}), input, measured));
     show_places_of_file(measured, input);
-    report(input.path, outcomes, check_json(input.path, measured, input.points, outcomes),
+    const Verdict verdict = {s_.target, criterion_, violations(measured, criterion_)};
+    report(input.path, outcomes, check_json(input.path, measured, input.points, verdict, outcomes),
            s_.details ? quality_text(measured, input, text_style()) + details_of_target(input, measured)
                       : short_text(input, measured));
   }

@@ -103,6 +103,8 @@ struct SolverName {
 /// Returns the criterion of a target, which is one of targets(). Targets that keep weights have measures of their own,
 /// beside well_centered.
 [[nodiscard]] Criterion criterion_of_target(std::string_view target);
+/// Returns the criterion of options, which is that of the target with these options.
+[[nodiscard]] Criterion criterion_of(const OptimizeOptions& options);
 /// Returns an error if options change a part of the mesh to keep.
 [[nodiscard]] Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::string_view> keep);
 

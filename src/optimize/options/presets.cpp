@@ -318,8 +318,11 @@ Expected<void> check_target(const OptimizeOptions& options, std::string_view tar
 
 Criterion criterion_of_target(std::string_view target) {
   const Expected<OptimizeOptions> options = options_for(target);
-  const bool weighs = options && options->unknowns != Unknowns::positions;
-  return weighs ? criterion_of(options->scheme) : Criterion::well_centered;
+  return options ? criterion_of(*options) : Criterion::well_centered;
+}
+
+Criterion criterion_of(const OptimizeOptions& options) {
+  return options.unknowns == Unknowns::positions ? Criterion::well_centered : criterion_of(options.scheme);
 }
 
 Expected<void> check_kept(const OptimizeOptions& options, std::span<const std::string_view> keep) {

@@ -370,7 +370,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   }
   s.hooks = hooks;
   s.objective = objective_of(options);
-  if (s.changes_least()) s.criterion = criterion_of(options.scheme);
+  if (s.changes_least()) s.criterion = criterion_of(options);
   s.policy = Policy(options);
   if (begins_with_odt(s, mesh)) {
     s.policy.first_energy = EnergyKind::ODT;

@@ -32,7 +32,7 @@ TEST_F(Check, JsonHasExactlyTheKeysOfTheReport) {
   for (const auto& item : report.items()) keys.push_back(item.key());
   std::vector<std::string> all = {"schema", "file"};
   for (const QualityMeasure& measure : quality_measures()) all.emplace_back(measure.key);
-  for (const char* key : {"energy", "min_coefficient_place", "histograms", "worst", "requirements"})
+  for (const char* key : {"energy", "min_coefficient_place", "histograms", "worst", "verdict", "requirements"})
     all.emplace_back(key);
   EXPECT_EQ(keys, all);
   std::vector<std::string> names;
@@ -293,7 +293,7 @@ TEST_F(Check, JsonOfTetrahedraHasExactlyTheKeysOfTheReport) {
   std::vector<std::string> keys, all = {"schema", "file"};
   for (const auto& item : report.items()) keys.push_back(item.key());
   for (const tets::QualityMeasure& m : tets::quality_measures()) all.emplace_back(m.key);
-  for (const char* key : {"min_coefficient_place", "min_distance_place", "histograms", "worst", "requirements"})
+  for (const char* key : {"min_coefficient_place", "min_distance_place", "histograms", "worst", "verdict", "requirements"})
     all.emplace_back(key);
   EXPECT_EQ(keys, all);
   EXPECT_EQ(report["regions"], 2);
