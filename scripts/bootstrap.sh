@@ -6,6 +6,7 @@
 #   scripts/bootstrap.sh test     what the tests need in addition
 #   scripts/bootstrap.sh lint     what scripts/lint.sh needs in addition; scripts/test.sh runs that
 #   scripts/bootstrap.sh clients  what scripts/clients.sh needs
+#   scripts/bootstrap.sh fortran  what builds MODFLOW 6 in scripts/clients.sh
 #   scripts/bootstrap.sh desktop  QGIS and ParaView, for scripts/clients.sh
 #   scripts/bootstrap.sh docs     what scripts/docs.sh needs
 #   scripts/bootstrap.sh wasm     what the preset wasm needs besides build, and what builds web/
@@ -25,6 +26,7 @@ test=(ccache libgtest-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-h5p
       libclang-rt-19-dev libopenmpi-dev openmpi-bin python3-mpi4py)
 lint=(python3-venv shellcheck ruby zip unzip)
 clients=(python3-venv liblapack3 libblas3 libglu1-mesa libgl1 libegl1 libxcursor1 libxft2 libxinerama1 libxrender1)
+fortran=(gfortran)
 desktop=(qgis python3-qgis paraview python3-paraview xvfb xauth libgl1-mesa-dri)
 docs=(python3-venv doxygen python3-meshio python3-scipy python3-matplotlib)
 wasm=(clang-19 lld-19 llvm-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
@@ -43,6 +45,7 @@ for group in "${@:-all}"; do
     test) wanted+=("${test[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
     clients) wanted+=("${clients[@]}") ;;
+    fortran) wanted+=("${fortran[@]}") ;;
     desktop) wanted+=("${desktop[@]}") ;;
     docs) wanted+=("${docs[@]}") ;;
     wasm) wanted+=("${wasm[@]}") ;;
@@ -52,7 +55,7 @@ for group in "${@:-all}"; do
     browser) wanted+=("${browser[@]}") ;;
     windows) wanted+=("${windows[@]}") ;;
     all) wanted+=("${build[@]}" "${test[@]}" "${lint[@]}") ;;
-    *) echo "bootstrap: no group '$group'; there are build, test, lint, clients, desktop, docs, wasm, cross, debian, native, browser, windows and all" >&2; exit 2 ;;
+    *) echo "bootstrap: no group '$group'; there are build, test, lint, clients, fortran, desktop, docs, wasm, cross, debian, native, browser, windows and all" >&2; exit 2 ;;
   esac
 done
 

@@ -7,7 +7,8 @@
 #   scripts/clients.sh fipy landlab          these
 #   scripts/clients.sh --plugins             only the plugins in their hosts: QGIS, ParaView, and those of tests/python/test_hosts.py
 #   scripts/clients.sh --write               puts numbers and pictures into the pages, and the table into docs/howto/README.md
-#   scripts/clients.sh --from DIR …          also installs a client that the index lacks, from its sources in DIR (PorePy, PyDEC)
+#   scripts/clients.sh --from DIR …          also installs a client that the index lacks, from its sources in DIR (PorePy, PyDEC,
+#                                            MODFLOW 6)
 #
 # Clients go to build/clients. The program and the module are built (preset python), unless TEMPER_BUILD names a build.
 set -euo pipefail
@@ -40,7 +41,19 @@ if [[ "$(cat "$venv/stamp" 2>/dev/null)" != "$stamp" ]]; then
   "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$requirements" -c "$constraints"
   echo "$stamp" >"$venv/stamp"
 fi
+modflow() {  # SOURCES: the environment gets the program mf6
+  [[ -x "$venv/bin/mf6" ]] && return
+  command -v gfortran >/dev/null || scripts/bootstrap.sh fortran
+  "$venv/bin/pip" install --quiet --disable-pip-version-check meson==1.12.1
+  FC=gfortran "$venv/bin/meson" setup --buildtype=release "$venv/mf6" "$1" >/dev/null
+  ninja -C "$venv/mf6" --quiet src/mf6
+  cp "$venv/mf6/src/mf6" "$venv/bin/"
+}
 for folder in "${from[@]}"; do
+  if [[ -f "$folder/src/mf6.f90" ]]; then
+    modflow "$folder"
+    continue
+  fi
   "$venv/bin/pip" install --quiet --disable-pip-version-check -c "$constraints" "$folder"
 done
 
