@@ -1,4 +1,4 @@
-"""What docs/tutorial/modflow.md needs from FloPy and matplotlib: a model of one layer, and its pictures."""
+"""What docs/tutorial/modflow.md needs from FloPy and matplotlib: a model of one layer, and its pictures. fault.py runs it, too."""
 
 import json
 import pathlib
@@ -86,15 +86,17 @@ def triangle_cells(mesh):
     return vertices, cells
 
 
-def run(folder, vertices, cells, heads, *, rain=None, rivers=None, pumped=None):
-    """Solves for steady heads. `heads`, `rivers` and `pumped` have values by number of the cell. Returns heads and balance."""
+def run(folder, vertices, cells, heads, *, rain=None, rivers=None, pumped=None, barriers=None):
+    """Solves for steady heads. `heads`, `rivers` and `pumped` have values by number of the cell, and `barriers` are those
+    of HFB. Returns heads and balance."""
     import flopy
 
     simulation = flopy.mf6.MFSimulation(sim_ws=folder)
     simulation.simulation_data.float_precision = 15  # northings have seven digits before the point
     flopy.mf6.ModflowTdis(simulation)
-    flopy.mf6.ModflowIms(simulation, outer_dvclose=1e-10, inner_dvclose=1e-11, rcloserecord=1e-8, linear_acceleration="bicgstab")
-    flow = flopy.mf6.ModflowGwf(simulation, modelname="valley")
+    flopy.mf6.ModflowIms(simulation, outer_dvclose=1e-10, inner_dvclose=1e-11, rcloserecord=1e-8, linear_acceleration="bicgstab",
+                          inner_maximum=500)  # fmt: skip
+    flow = flopy.mf6.ModflowGwf(simulation, modelname="valley", save_flows=True)
     flopy.mf6.ModflowGwfdisv(flow, nlay=1, ncpl=len(cells), nvert=len(vertices), top=0.0, botm=-25.0, vertices=vertices, cell2d=cells)
     flopy.mf6.ModflowGwfnpf(flow, k=15.0)
     flopy.mf6.ModflowGwfic(flow, strt=5.0)
@@ -105,7 +107,10 @@ def run(folder, vertices, cells, heads, *, rain=None, rivers=None, pumped=None):
         flopy.mf6.ModflowGwfriv(flow, stress_period_data=[((0, int(cell)), *map(float, data)) for cell, data in rivers.items()])
     if pumped:
         flopy.mf6.ModflowGwfwel(flow, stress_period_data=[((0, int(cell)), -rate) for cell, rate in pumped.items()])
-    flopy.mf6.ModflowGwfoc(flow, head_filerecord="valley.hds", saverecord=[("HEAD", "LAST")], printrecord=[("BUDGET", "LAST")])
+    if barriers:
+        flopy.mf6.ModflowGwfhfb(flow, maxhfb=len(barriers), stress_period_data=barriers)
+    flopy.mf6.ModflowGwfoc(flow, head_filerecord="valley.hds", budget_filerecord="valley.bud",
+                           saverecord=[("HEAD", "LAST"), ("BUDGET", "LAST")], printrecord=[("BUDGET", "LAST")])  # fmt: skip
     simulation.write_simulation(silent=True)
     done, messages = simulation.run_simulation(silent=True)
     assert done, messages
