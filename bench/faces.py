@@ -2,11 +2,13 @@
 """Faults on faces of power cells: twenty random networks are meshed and judged.
 
     bench/faces.py TEMPER [--seed S] [--networks N] [--first K] [--size H] [--keep FOLDER] [--optimize]
+    bench/faces.py TEMPER --examples upr [--mrst FOLDER]      those of MRST's module UPR, instead
 
 Each network has 1 to 12 faults in a domain of 1000 by 600: kinked lines with tips inside, crossings down to 15 degrees,
 junctions, ends on the boundary, a loop, wells, two regions. The judge takes points, weights and triangles from the mesh,
 and the faults from the outline. Everything else it computes itself:
 
+    pieces      pairs of vertices that the mesh has for faults: those whose dual is on a fault, and all
     length      length of faults on faces over their length, less 1
     negative    edges with a negative coefficient: a dual of negative length
     hidden      vertices without a power cell
@@ -71,7 +73,7 @@ class Network:
     def __init__(self, rng, size):
         self.rng, self.size = rng, size
         self.lines, self.loops, self.wells, self.rivers = [], [], [], []
-        self.border = None
+        self.border, self.corners = None, CORNERS
 
     def all_lines(self):
         return self.lines + self.loops + ([self.border] if self.border is not None else [])
@@ -229,7 +231,7 @@ def feature(kind, coordinates, **properties):
 def as_geojson(net):
     features = []
     if net.border is None:
-        features.append(feature("Polygon", [np.vstack([CORNERS, CORNERS[:1]])], region=1))
+        features.append(feature("Polygon", [np.vstack([net.corners, net.corners[:1]])], region=1))
     else:
         b = net.border
         left = np.vstack([[[0, 0]], b, [[0, HEIGHT]], [[0, 0]]])
@@ -238,6 +240,8 @@ def as_geojson(net):
         features.append(feature("Polygon", [right], region=2, name="east"))
     for i, line in enumerate(net.lines + net.loops):
         features.append(feature("LineString", line, name=f"fault {i + 1}", **{"as": "faces"}))
+    for i, river in enumerate(net.rivers):
+        features.append(feature("LineString", river, name=f"river {i + 1}"))
     for i, well in enumerate(net.wells):
         features.append(feature("Point", well, name=f"well {i + 1}"))
     crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32632"}}
@@ -248,7 +252,7 @@ def as_geojson(net):
 
 
 def read_vtu(path):
-    """Points, weights and triangles of a VTU file in ASCII."""
+    """Points, weights, triangles, and the pairs of vertices of faces, of a VTU file in ASCII."""
     text = path.read_text()
 
     def array(name):
@@ -261,7 +265,9 @@ def read_vtu(path):
     types, offsets = array("types").astype(int), array("offsets").astype(int)
     corners = array("connectivity").astype(int)
     triangles = np.array([corners[o - 3 : o] for o, t in zip(offsets, types) if t == 5])
-    return points, np.zeros(len(points)) if weights is None else weights, triangles
+    is_pair = np.zeros(len(types), bool) if array("temper:face") is None else (array("temper:face") == 1) & (types == 3)
+    pairs = np.sort(corners[np.add.outer(offsets[is_pair], [-2, -1])], axis=1)
+    return points, np.zeros(len(points)) if weights is None else weights, triangles, pairs
 
 
 def orthocenters(points, weights, triangles):
@@ -308,7 +314,7 @@ def covered(intervals):
     return total
 
 
-def judge(points, weights, triangles, segments):
+def judge(points, weights, triangles, pairs, segments):
     duals = Duals(points, weights, triangles)
     near = 1e-9 * WIDTH
     whole = found = 0.0
@@ -335,7 +341,9 @@ def judge(points, weights, triangles, segments):
         i, j = duals.edges[e]
         least = min(least, duals.length[e] / np.median(faces_of[i] + faces_of[j]))
     tiny = 1e-9 * duals.size
+    pairs = {tuple(pair) for pair in pairs.tolist()}
     return {
+        "pieces": (len(pairs & {tuple(edge) for edge in duals.edges[on_fault].tolist()}), len(pairs)),
         "length": found / whole - 1,
         "negative": int(np.sum(duals.length < -tiny)),
         "hidden": sum(1 for faces in faces_of if not faces),
@@ -357,20 +365,36 @@ def run(*words):
 
 
 def row(name, net, path, seconds):
-    points, weights, triangles = read_vtu(path)
+    mesh = read_vtu(path)
     segments = without_doubles([s for line in net.all_lines() for s in segments_of(line)])
-    found = judge(points, weights, triangles, segments)
+    found = judge(*mesh, segments)
+    on_faces, pieces = found["pieces"]
     good = (
         abs(found["length"]) < 1e-9
         and found["negative"] == found["hidden"] == 0
+        and on_faces == pieces
         and found["least face"] >= 0.1
     )
     print(
-        f"{name:>12} {len(net.all_lines()):6} {len(triangles):9} {found['length']:10.1e} {found['negative']:8} "
+        f"{name:>22} {len(net.all_lines()):6} {len(mesh[0]):7} {on_faces:5} of {pieces:5} {found['length']:10.1e} {found['negative']:8} "
         f"{found['hidden']:6} {found['least face']:10.3f} {seconds:7.1f}  {'' if good else 'BAD'}",
         flush=True,
     )
     return good
+
+
+def random_networks(options):
+    for number in range(options.first, options.networks):
+        yield str(number), network(options.seed, number, options.size)
+
+
+def examples_of_upr(options):
+    import faces_upr
+
+    for example in faces_upr.examples(options.mrst):
+        net = Network(None, example.size)
+        net.corners, net.lines, net.rivers = example.corners, example.lines, example.rivers
+        yield example.name, net
 
 
 def main():
@@ -380,37 +404,35 @@ def main():
     parser.add_argument("--networks", type=int, default=20)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--size", type=float, default=30)
+    parser.add_argument("--examples", choices=["upr"])
+    parser.add_argument("--mrst", help="folder of MRST, for two more examples")
     parser.add_argument("--keep")
     parser.add_argument("--optimize", action="store_true")
     options = parser.parse_args()
     folder = pathlib.Path(options.keep or tempfile.mkdtemp())
     folder.mkdir(exist_ok=True)
-    print("     network  lines triangles     length negative hidden least face seconds")
+    print("               network  lines   cells         pieces     length negative hidden least face seconds")
     n_good = n = 0
-    for number in range(options.first, options.networks):
-        net = network(options.seed, number, options.size)
-        outline, mesh = folder / f"{number}.geojson", folder / f"{number}.vtu"
+    for name, net in examples_of_upr(options) if options.examples else random_networks(options):
+        outline, mesh, again = (folder / f"{name}{suffix}" for suffix in (".geojson", ".vtu", "_again.vtu"))
         outline.write_text(json.dumps(as_geojson(net)))
-        started = time.perf_counter()
-        made = run(options.temper, "mesh", outline, "-o", mesh, "--size", options.size, "--for", "vertex",
-                   "--split-crossings", "--encoding", "ascii", "--threads", 1)  # fmt: skip
-        seconds = time.perf_counter() - started
-        n += 1
-        if made.returncode:
-            print(f"{number:>12} {made.stderr.strip()}", flush=True)
-            continue
-        good = row(str(number), net, mesh, seconds)
+        runs = [(name, mesh, ["mesh", outline, "-o", mesh, "--size", net.size, "--split-crossings", "--threads", 1])]
         if options.optimize:
-            again = folder / f"{number}_again.vtu"
+            runs.append((f"{name} again", again, ["optimize", mesh, "-o", again]))
+        n += 1
+        good = True
+        for title, path, words in runs:
             started = time.perf_counter()
-            made = run(options.temper, "optimize", mesh, "-o", again, "--for", "vertex", "--encoding", "ascii")
+            made = run(options.temper, *words, "--for", "vertex", "--encoding", "ascii")
+            seconds = time.perf_counter() - started
             if made.returncode:
-                print(f"{number:>12} {made.stderr.strip()}", flush=True)
-            else:
-                good &= row(f"{number} again", net, again, time.perf_counter() - started)
+                print(f"{title:>22} {made.stderr.strip()}", flush=True)
+                good = False
+                break
+            good &= row(title, net, path, seconds)
         n_good += good
     print(f"{n_good} of {n} are good")
-    return n_good < n
+    return int(n_good < n)
 
 
 if __name__ == "__main__":
