@@ -12,6 +12,7 @@ and the faults from the outline. Everything else it computes itself:
     length      length of faults on faces over their length, less 1
     negative    edges with a negative coefficient: a dual of negative length
     hidden      vertices without a power cell
+    behind      faces that do not cross the line between the two vertices, but its extension. MODFLOW cannot take them
     least face  least over all faces on faults: length over the median length of the faces of its two cells
     seconds     time of temper mesh
 
@@ -341,12 +342,15 @@ def judge(points, weights, triangles, pairs, segments):
         i, j = duals.edges[e]
         least = min(least, duals.length[e] / np.median(faces_of[i] + faces_of[j]))
     tiny = 1e-9 * duals.size
+    i, j = duals.edges.T
+    is_behind = (duals.length > tiny) & (np.abs(weights[i] - weights[j]) > duals.size**2)
     pairs = {tuple(pair) for pair in pairs.tolist()}
     return {
         "pieces": (len(pairs & {tuple(edge) for edge in duals.edges[on_fault].tolist()}), len(pairs)),
         "length": found / whole - 1,
         "negative": int(np.sum(duals.length < -tiny)),
         "hidden": sum(1 for faces in faces_of if not faces),
+        "behind": int(np.sum(is_behind)),
         "least face": least,
         "weights": float(np.abs(weights).max()),
     }
@@ -377,7 +381,7 @@ def row(name, net, path, seconds):
     )
     print(
         f"{name:>22} {len(net.all_lines()):6} {len(mesh[0]):7} {on_faces:5} of {pieces:5} {found['length']:10.1e} {found['negative']:8} "
-        f"{found['hidden']:6} {found['least face']:10.3f} {seconds:7.1f}  {'' if good else 'BAD'}",
+        f"{found['hidden']:6} {found['behind']:6} {found['least face']:10.3f} {seconds:7.1f}  {'' if good else 'BAD'}",
         flush=True,
     )
     return good
@@ -411,7 +415,7 @@ def main():
     options = parser.parse_args()
     folder = pathlib.Path(options.keep or tempfile.mkdtemp())
     folder.mkdir(exist_ok=True)
-    print("               network  lines   cells         pieces     length negative hidden least face seconds")
+    print("               network  lines   cells         pieces     length negative hidden behind least face seconds")
     n_good = n = 0
     for name, net in examples_of_upr(options) if options.examples else random_networks(options):
         outline, mesh, again = (folder / f"{name}{suffix}" for suffix in (".geojson", ".vtu", "_again.vtu"))
