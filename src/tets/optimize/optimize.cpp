@@ -30,6 +30,8 @@ constexpr double kRelaxation = 1.7;
 // after kLastSweeps at the latest.
 constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
+// Moves that do not bring errors below the input's must lower them by this part.
+constexpr double kGainOfMoves = 0.2;
 // The most sweeps for a HOT energy.
 constexpr int kMostHotSweeps = 32;
 // The constraints on weights alone for each criterion.
@@ -162,12 +164,30 @@ class Driver : RepairRun {
     begin_phase(error_of);
     const bool has_gradient = !errors_.unit.empty() && errors_.model->has_gradient();
     const AccuracyErrors lowered = has_gradient ? errors_ : AccuracyErrors{};
+    const Draft start = draft_;
+    descend_from(start, lowered, false);
+    if (has_gradient && best_.measure >= 1 && !stopped_early()) prefer_weights_alone(start, lowered);
+    // A run that must stop does not measure any more: it keeps the mesh before these steps.
+    if (lowered.model == nullptr && !(errors_.model && stopped_early())) keep_if_best(error_of(draft_.mesh));
+  }
+  /// Descends from a mesh, also again where corners must keep their place. Measures the best mesh.
+  void descend_from(const Draft& start, const AccuracyErrors& lowered, bool weights_alone) {
+    draft_ = start;
     IdVector<VertexId, Mobility> mobility = draft_.mobilities();
+    for (Mobility& m : mobility) {
+      if (weights_alone) m = m.weighs ? Mobility::weight : Mobility::none;
+    }
     int steps = 0;
     while (descend(lowered, mobility, steps)) {
     }
-    // A run that must stop does not measure any more: it keeps the mesh before these steps.
-    if (lowered.model == nullptr && !(errors_.model && stopped_early())) keep_if_best(error_of(draft_.mesh));
+  }
+  /// Where errors of the input cancel, as on cubes that are cut in six, moves cannot bring them below the input's. Then
+  /// positions stay, unless moves lower errors by more than a part.
+  void prefer_weights_alone(const Draft& start, const AccuracyErrors& lowered) {
+    const Best<Draft> moved = best_;
+    best_ = {start, error_ratio_of(start.mesh)};
+    descend_from(start, lowered, true);
+    if (stopped_early() || moved.measure < (1 - kGainOfMoves) * best_.measure) best_ = moved;
   }
   /// Lets all corners of violating tetrahedra keep their place, if there are more than in the best mesh.
   bool kept_at_violations(IdVector<VertexId, Mobility>& mobility) {

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "optimize/run/changes.hpp"
+#include "tets/mesh/tables.hpp"
 #include "tets/optimize/local_search.hpp"
 
 namespace temper::tets {
@@ -17,8 +20,24 @@ constexpr std::size_t kRoundsInVain = 4;
 constexpr double kSmallMargin = 0.01, kGainOfRound = 1e-3;
 // Tetrahedra that repairs may improve, each time they do: with 5,000 tetrahedra some ten seconds on one core.
 constexpr std::size_t kRepairWork = 300'000, kRepairWorkPerTet = 40;
+// The most of it if places are so many that patches around them fill the mesh: on thin shells most of them stay bad.
+constexpr std::size_t kWorkOfMany = 40'000;
 // Trials in vain of a first pass over all patches: most of those that help are among the first.
 constexpr int kFewTrials = 2;
+// Margins are not worth larger distances between the midpoint of an edge and its weighted midpoint, over its length.
+constexpr double kMostOffset = 1;
+
+double largest_offset(const TetMesh& mesh) {
+  double most = 0;
+  for (const TetId t : mesh.tetrahedra()) {
+    const auto p = mesh.points(t);
+    for (const auto& ends : kEdgeCorners) {
+      const WeightedPoint &a = p[std::size_t(ends[0])], &b = p[std::size_t(ends[1])];
+      most = std::max(most, std::abs(a.w - b.w) / (2 * squared_length(b.position() - a.position())));
+    }
+  }
+  return most;
+}
 
 }  // namespace
 
@@ -56,12 +75,14 @@ bool RepairRun::change_places(const SearchOptions& options) {
 void RepairRun::widen_margins() {
   Draft widest = draft_ = *best_.kept;
   double least = state_of(widest.mesh, kLastGamma, hooks_.executor).energy;
+  const double most_offset = std::max(kMostOffset, largest_offset(widest.mesh));
   SearchOptions options = {.criterion = criterion_, .small_margin = kSmallMargin, .most_cosine = most_cosine_};
   for (std::size_t in_vain = 0; in_vain < kRoundsInVain && may_sweep();) {
     options.rank = in_vain;
     if (!change_places(options) || stopped_early()) break;
     const SweepRecord& now = report.history.back();
-    const bool is_better = now.bad == 0 && now.energy < (1 - kGainOfRound) * least;
+    const bool is_better =
+        now.bad == 0 && now.energy < (1 - kGainOfRound) * least && largest_offset(draft_.mesh) <= most_offset;
     in_vain = is_better ? 0 : in_vain + 1;
     if (is_better) {
       widest = draft_;
@@ -76,6 +97,8 @@ void RepairRun::widen_margins() {
 
 void RepairRun::repair_in_patches() {
   draft_ = *best_.kept;
+  const bool are_many = static_cast<double>(best_bad_) > kManyPlaces * static_cast<double>(draft_.mesh.n_tetrahedra());
+  if (are_many) work_ = std::min(work_, kWorkOfMany);
   const int trials = options_.tets.repair_trials;
   const bool each = options_.tets.patches == Patches::each;
   for (const double most_cosine : {most_cosine_, guarded_cosine()}) {  // smaller angles only if there is no other way
