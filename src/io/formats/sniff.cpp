@@ -98,6 +98,8 @@ constexpr Known kKnown[] = {
        return h.starts_with(std::string_view("\1\0\0\0", 4)) || h.starts_with(std::string_view("\0\0\0\1", 4));
      },
      kMeshio},
+    {"an MFEM INLINE mesh, a recipe without points", [](std::string_view h) { return h.starts_with("MFEM INLINE"); },
+     ". Next: load it in MFEM and save it as mesh v1.0, with Mesh::Save"},
     {"an MFEM mesh of another version than v1.0", [](std::string_view h) { return h.starts_with("MFEM "); },
      ". Next: in MFEM's mesh-explorer, c sets the order to 1 and V saves it as VTK"},
     {"a VTK XML file of another type than UnstructuredGrid",

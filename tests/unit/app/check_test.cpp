@@ -293,7 +293,8 @@ TEST_F(Check, JsonOfTetrahedraHasExactlyTheKeysOfTheReport) {
   std::vector<std::string> keys, all = {"schema", "file"};
   for (const auto& item : report.items()) keys.push_back(item.key());
   for (const tets::QualityMeasure& m : tets::quality_measures()) all.emplace_back(m.key);
-  for (const char* key : {"min_coefficient_place", "min_distance_place", "histograms", "worst", "verdict", "requirements"})
+  for (const char* key :
+       {"min_coefficient_place", "min_distance_place", "histograms", "worst", "verdict", "requirements"})
     all.emplace_back(key);
   EXPECT_EQ(keys, all);
   EXPECT_EQ(report["regions"], 2);
