@@ -29,10 +29,20 @@ namespace temper {
   }
   return true;
 }
-/// stays says whether all corners of t keep their places and weights: nothing can improve t.
+/// stays says whether nothing can make t well-centered, exactly. All of its corners keep their places and weights, or
+/// two of them do and the dual of the edge between them does not cross it.
 [[nodiscard]] inline bool stays(const Mesh& mesh, TriangleId t) {
-  const auto [a, b, c] = mesh.corners(t);
-  return mesh.is_frozen(a) && mesh.is_frozen(b) && mesh.is_frozen(c);
+  int n_frozen = 0, free = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (mesh.is_frozen(mesh.origin(Mesh::halfedge(t, k))))
+      ++n_frozen;
+    else
+      free = k;
+  }
+  if (n_frozen < 2) return false;
+  const HalfedgeId across = Mesh::halfedge(t, (free + 1) % 3);
+  return n_frozen == 3 || !inlined::crosses_edge(mesh.space(), mesh.point(mesh.origin(across)),
+                                                 mesh.point(mesh.target(across), mesh.point(mesh.origin(across))));
 }
 /// is_bad says whether triangle t is not well-centered, exactly. An erased triangle is not bad, nor one that stays.
 [[nodiscard]] inline bool is_bad(const Mesh& mesh, TriangleId t) {

@@ -21,6 +21,13 @@ bool has_no_dual(const Mesh& mesh, HalfedgeId h) {
 
 }  // namespace
 
+bool keeps_faces(const Mesh& mesh) {
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_face(h)) return true;
+  }
+  return false;
+}
+
 void keep_faces(Mesh& mesh, std::span<const HalfedgeId> faces) {
   std::vector<TriangleId> stack;
   IdVector<TriangleId, std::uint8_t> known(mesh.n_triangles(), 0);

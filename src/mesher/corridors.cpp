@@ -35,6 +35,7 @@ class CorridorMaker {
     sites_of_lines_.assign(divided_.pieces.size(), {-1, -1});
     for (const FaceNode& node : nodes_.nodes) add_node(node);
     add_pieces();
+    add_circles();
     for (const std::uint32_t point : sites_.crowded) add_too_long(*nodes_.at(point));
     find_disturbed();
     return std::move(laid_);
@@ -231,6 +232,16 @@ class CorridorMaker {
         now.ends.at(end) = static_cast<std::uint32_t>(site >= 0 ? site : number);
       }
       out().pieces.push_back(now);
+    }
+  }
+
+  void add_circles() {
+    constexpr double kWider = 1.25;  // the dual crosses an edge to a site between 1/2 and 0.82 of its length
+    std::vector<Circle>& circles = out().corridors.circles;
+    for (const FaceNode& node : nodes_.nodes) circles.push_back({{node.at.x, node.at.y, 0}, node.radius});
+    for (std::size_t i = 0; i < out().points.size(); ++i) {
+      const double weight = out().corridors.weights[i];
+      if (weight > 0) circles.push_back({out().points[i], kWider * std::sqrt(weight)});
     }
   }
 

@@ -31,6 +31,12 @@ struct SitePair {
   std::uint32_t edge = 0;  ///< of the arrangement
 };
 
+/// A circle that no vertex is placed in.
+struct Circle {
+  Vec3 center;
+  double radius = 0;
+};
+
 /// The sites around lines that become faces: vertices with weights (corridors.hpp).
 struct Corridors {
   /// Sites around each point of a face, counter-clockwise. All have one power there.
@@ -40,6 +46,9 @@ struct Corridors {
   std::vector<double> weights;      ///< of all points
   std::vector<std::int32_t> areas;  ///< of the site at each point; kOutside if it is on a line, or no site
   std::vector<Vec3> points;         ///< of the faces: no vertex is near
+  /// Circles of the points of faces; and around sites of positive weight, since the dual of an edge from there to a
+  /// vertex without weight would not cross that edge.
+  std::vector<Circle> circles;
 };
 
 /// The outline after the division: the points of the outline and of the division, and the pieces between them.

@@ -17,6 +17,8 @@
 #include "mesher/refusals.hpp"
 #include "mesher/sizing.hpp"
 #include "mesher/sphere_outline.hpp"
+#include "temper/detail/criterion.hpp"
+#include "temper/detail/optimize_table.hpp"
 
 namespace temper {
 namespace {
@@ -244,7 +246,7 @@ class Mesher {
     const bool splits = problem_.surface.space().is_plane() && options.repair != Repair::none;
     if (!splits) options.repair = Repair::none;
     if (const auto error = improve(*made, options)) return too_fine_for(*error);
-    if (!splits || made->bad == 0 || stopped_early(*made)) return made;
+    if (!splits || is_finished(*made) || stopped_early(*made)) return made;
     options.repair = Repair::vertices;
     options.boundary = BoundaryVertices::split;
     if (const auto error = improve(*made, options)) return *error;
@@ -265,6 +267,15 @@ class Mesher {
     return {};
   }
 
+  /// The triangles that stay bad. Sites around faces stay, and triangles next to them may have no room to become
+  /// well-centered. So with faces the criterion of the target decides.
+  [[nodiscard]] std::vector<TriangleId> left(const OutlineMesh& made) const {
+    const bool by_target = has_faces(domain_) && options_.optimize;
+    const Criterion criterion = by_target ? criterion_of(*options_.optimize) : Criterion::well_centered;
+    return cells_at_violations(made.mesh, criterion, problem_.hooks.executor);
+  }
+  [[nodiscard]] bool is_finished(const OutlineMesh& made) const { return left(made).empty(); }
+
   [[nodiscard]] bool stopped_early(const OutlineMesh& made) const {
     return deadline_.stopped() || temper::stopped_early(made.report.stopped);
   }
@@ -282,18 +293,20 @@ class Mesher {
   Expected<OutlineMesh> best_of_attempts() {
     Expected<OutlineMesh> best = attempt();
     if (!best || !options_.optimize) return best;
+    std::vector<TriangleId> left_of_best = left(*best), left_of_last = left_of_best;
     Mesh last = best->mesh;
     int attempts = 1;
-    for (; best->bad > 0 && attempts < options_.attempts && !stopped_early(*best); ++attempts) {
-      refine_around_bad(problem_, last, sizing_);
+    for (; !left_of_best.empty() && attempts < options_.attempts && !stopped_early(*best); ++attempts) {
+      refine_around(problem_, last, left_of_last, sizing_);
       Expected<OutlineMesh> next = attempt();
       if (!next) break;  // no time, or sizes too small for the coordinates: the best so far stays
       last = next->mesh;
+      left_of_last = left(*next);
       const bool last_stopped_early = stopped_early(*next);
-      if (next->bad < best->bad) best = std::move(next);
+      if (left_of_last.size() < left_of_best.size()) best = std::move(next), left_of_best = left_of_last;
       if (last_stopped_early) break;
     }
-    if (best->bad > 0 && options_.optimize->repair != Repair::none && !stopped_early(*best)) {
+    if (!left_of_best.empty() && options_.optimize->repair != Repair::none && !stopped_early(*best)) {
       if (auto error = improve(*best, *options_.optimize)) return *error;
     }
     best->attempts = attempts;

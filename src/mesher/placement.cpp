@@ -249,6 +249,9 @@ class Placement {
     for (const Piece& p : divided.pieces)
       boxes.push_back(box_around(surface_, divided.points[p.ends[0]], divided.points[p.ends[1]]));
     tree_ = BoundingBoxTree(boxes);
+    boxes.clear();
+    for (const Circle& c : divided.corridors.circles) boxes.push_back(BoundingBox{c.center, c.center}.grown(c.radius));
+    circles_ = BoundingBoxTree(boxes);
     for (const Vec3 p : divided.points) grid_.add(p, size(p));
     for (const Vec3 p : divided.corridors.points) grid_.add(p, size(p));
   }
@@ -308,10 +311,18 @@ class Placement {
 
   bool take(Vec3 p, Vec3 from, std::int32_t area, std::size_t own_piece) {
     const double size = size_at(p, area);
-    if (grid_.any_within(p, kApart * size) || !is_clear(p, from, kClear * size, own_piece)) return false;
+    if (grid_.any_within(p, kApart * size) || is_in_circle(p) || !is_clear(p, from, kClear * size, own_piece))
+      return false;
     grid_.add(p, size);
     front_.push_back({p, -1.0 * surface_.direction(p, from), area});
     return true;
+  }
+
+  [[nodiscard]] bool is_in_circle(Vec3 p) const {
+    return !circles_.visit(BoundingBox{p, p}, [&](std::size_t i) {
+      const Circle& c = divided_.corridors.circles[i];
+      return squared_length(p - c.center) >= c.radius * c.radius;
+    });
   }
 
   /// Says whether no piece is within the distance of p, or between p and its origin.
@@ -330,7 +341,7 @@ class Placement {
   const Areas& areas_;
   const GradedSize& size_;
   Deadline& deadline_;
-  BoundingBoxTree tree_;
+  BoundingBoxTree tree_, circles_;
   PointGrid grid_;
   std::vector<Front> front_;
 };

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "mesh/bad_triangles.hpp"
-
 namespace temper::mesher {
 namespace {
 
@@ -72,10 +70,10 @@ Sizing first_sizing(const Problem& problem, const Domain& domain) {
   return sizing;
 }
 
-void refine_around_bad(const Problem& problem, const Mesh& mesh, Sizing& sizing) {
+void refine_around(const Problem& problem, const Mesh& mesh, const std::vector<TriangleId>& bad, Sizing& sizing) {
   constexpr double kSmaller = 0.7;
   const GradedSize now = sizing.size(problem);
-  for (const TriangleId t : bad_triangles(mesh)) {
+  for (const TriangleId t : bad) {
     for (const VertexId v : mesh.corners(t)) {
       const Vec3 p = problem.surface.place(mesh.point(v));
       sizing.sources.push_back({p, kSmaller * now(p)});

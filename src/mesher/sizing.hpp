@@ -26,8 +26,8 @@ struct Sizing {
 /// Sources for short edges, for areas of smaller size, and at places where the size field grows faster than the grade.
 [[nodiscard]] Sizing first_sizing(const Problem& problem, const Domain& domain);
 
-/// Makes sizes around the triangles that stay bad smaller.
-void refine_around_bad(const Problem& problem, const Mesh& mesh, Sizing& sizing);
+/// Makes sizes around these triangles of the mesh, which stay bad, smaller.
+void refine_around(const Problem& problem, const Mesh& mesh, const std::vector<TriangleId>& bad, Sizing& sizing);
 
 /// Makes pieces that are too long for faces shorter.
 void make_shorter(const std::vector<LongPieces>& pieces, Sizing& sizing);

@@ -21,7 +21,10 @@
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
 #include "system/system.hpp"
+#include "temper/detail/criterion.hpp"
+#include "temper/detail/faces.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/detail/optimize_table.hpp"
 #include "temper/detail/path.hpp"
 #include "temper/detail/projection.hpp"
 #include "temper/draw.hpp"
@@ -405,14 +408,18 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   if (!s.files.report.empty()) outputs.write_text(s.files.report, mesh_json(record));
   if (!s.files.picture.empty()) outputs.write_picture(s.files.picture, draw_svg(made.mesh));
   print(mesh_text(record) + fmt::format("{}: {}\n", s.output.path, verdict(after)));
+  // Next to faces some triangles have no room to become well-centered, and a solver may not need that.
+  const Criterion criterion = keeps_faces(made.mesh) ? criterion_of_target(s.target) : Criterion::well_centered;
+  const std::size_t bad = violations(after, criterion);
+  if (criterion != Criterion::well_centered) print(count_of_duals(bad, criterion) + "\n");
   const bool few = s.options.points == MeshPoints::few;
   if (few && made.bad > 0) {
     print(fmt::format("Next: {}{}--size instead of --points few, or {}\n",
                       stopped_early(made.report.stopped) ? "a longer --time-limit, " : "",
                       s.options.optimize->unknowns == Unknowns::positions ? "weights, " : "",
                       command_line("explain", s.output.path, s.projection)));
-  } else if (!s.sphere && bad_elements(after) > 0) {
-    print(next_step(s.output.path, s.projection, Criterion::well_centered, {}));
+  } else if (!s.sphere && bad > 0) {
+    print(next_step(s.output.path, s.projection, criterion, s.target));
   }
   // The time limit is the usual end of a search for few points.
   const bool is_usual_end = few && made.report.stopped == Stopped::time_limit && made.bad == 0;

@@ -21,5 +21,7 @@ namespace temper {
 /// constrained, and edges inside become diagonals. So does an edge of the boundary on which a dual ends. O(n) in the
 /// number of edges.
 void keep_faces(Mesh& mesh, std::span<const HalfedgeId> faces);
+/// Says whether the mesh has faces that must stay. O(n).
+[[nodiscard]] bool keeps_faces(const Mesh& mesh);
 
 }  // namespace temper

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/bad_triangles.hpp"
+#include "temper/detail/faces.hpp"
 #include "temper/detail/optimize_table.hpp"
 
 namespace temper {
@@ -370,7 +371,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   }
   s.hooks = hooks;
   s.objective = objective_of(options);
-  if (s.changes_least()) s.criterion = criterion_of(options);
+  if (s.changes_least() || keeps_faces(mesh)) s.criterion = criterion_of(options);
   s.policy = Policy(options);
   if (begins_with_odt(s, mesh)) {
     s.policy.first_energy = EnergyKind::ODT;

@@ -79,18 +79,22 @@ struct Settings {
   AccuracyModel accuracy;                     ///< of the accuracy objective; has no unit
   std::shared_ptr<const DiscretizationError>
       errors{};  ///< errors of the solver, to be lowered or to compare meshes; or null
-  Criterion criterion = Criterion::well_centered;  ///< that repairs ask for: the target's, if the least may change
-  bool in_metric = false;                          ///< the mesh is in the plane of a tensor's metric
-  bool lacks_discretization_error = false;         ///< the run would use `errors`, but the build has none
-  std::shared_ptr<LpSolver> lp{};                  ///< for repairs, or null
-  std::shared_ptr<const GuardLimits> guard{};      ///< of steps and of the judge, or null
-  bool in_copy = false;                            ///< sweeps work on a copy of a few triangles (repair/local_copy.hpp)
-  double worst_violation = kInfinity;              ///< of the input's triangles (judge.hpp): no result has a worse one
-  std::optional<SizeField> size_field{};           ///< of the size band, in the user's units; absent without a band
+  /// The criterion that ends the run: the target's, if the least may change, or if the mesh keeps faces. Sites around
+  /// faces stay, and triangles next to them may have no room to become well-centered.
+  Criterion criterion = Criterion::well_centered;
+  bool in_metric = false;                      ///< the mesh is in the plane of a tensor's metric
+  bool lacks_discretization_error = false;     ///< the run would use `errors`, but the build has none
+  std::shared_ptr<LpSolver> lp{};              ///< for repairs, or null
+  std::shared_ptr<const GuardLimits> guard{};  ///< of steps and of the judge, or null
+  bool in_copy = false;                        ///< sweeps work on a copy of a few triangles (repair/local_copy.hpp)
+  double worst_violation = kInfinity;          ///< of the input's triangles (judge.hpp): no result has a worse one
+  std::optional<SizeField> size_field{};       ///< of the size band, in the user's units; absent without a band
 
   [[nodiscard]] const EnergyInfo& energy() const { return energy_info(model.kind); }
   [[nodiscard]] Executor* executor() const { return hooks.executor; }
   [[nodiscard]] bool changes_least() const { return options.change == Change::least; }
+  /// Says whether violations of the criterion count before triangles that are not well-centered.
+  [[nodiscard]] bool counts_violations() const { return changes_least() || criterion != Criterion::well_centered; }
 };
 
 /// The energy that the present sweep lowers, and how far its steps go.

@@ -9,6 +9,7 @@
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/run/run.hpp"
+#include "temper/detail/criterion.hpp"
 #include "temper/detail/necessity.hpp"
 #include "topology/rings.hpp"
 
@@ -82,10 +83,10 @@ bool RepairSearch::improve_one_place() {
   return false;
 }
 
-/// If the last edit kept all numbers, looks only at its place.
+/// If the last edit kept all numbers, looks only at its place. Duals also change next to it.
 void RepairSearch::find_bad() {
-  if (!changed_) {
-    bad_ = bad_triangles(work_.mesh);
+  if (!changed_ || settings_.criterion != Criterion::well_centered) {
+    bad_ = cells_at_violations(work_.mesh, settings_.criterion, settings_.executor());
     return;
   }
   std::erase_if(bad_, [&](TriangleId t) { return is_changed(t); });
@@ -157,7 +158,7 @@ std::optional<Edit> RepairSearch::choose_forced(const Neighborhood& around, Tria
 
 /// Returns the edit that makes the neighborhood best, if it helps, from the first tier that has one.
 std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId seed) {
-  const LocalDefect before = defect_of(around.mesh, settings_.accuracy);
+  const LocalDefect before = defect_of(around, around.mesh, settings_);
   std::optional<Edit> best;
   LocalDefect least = before;
   std::vector<Tried> all;

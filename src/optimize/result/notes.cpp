@@ -231,7 +231,7 @@ void add_notes(const Mesh& mesh, const Settings& settings, const RunFacts& facts
   if (facts.places_left > 0)
     notes.add(whole_mesh_note(count_of(facts.places_left, "triangle", "triangles"), facts.many_are_bad));
   if (settings.changes_least() && !facts.meets_criterion) notes.add(changes_note(*report.changed));
-  if (settings.changes_least()) notes.note_violations(count_violations(mesh, settings));
+  if (settings.counts_violations()) notes.note_violations(count_violations(mesh, settings));
   if (facts.error_ratio) notes.note_errors(*facts.error_ratio, ending.returns_input);
   if (facts.gave_up) {
     notes.add(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/sum.hpp"
@@ -86,9 +87,10 @@ bool has_all_for_accuracy(const Mesh& mesh, const Settings& settings) {
 
 bool replaces(const MeshScore& now, const MeshScore& best, Requirement required) {
   if (now.beyond_guard != best.beyond_guard) return now.beyond_guard < best.beyond_guard;
-  if (required == Requirement::fewer_bad) return now.bad < best.bad;
+  const bool fewer_bad = std::pair(now.violations, now.bad) < std::pair(best.violations, best.bad);
+  if (required == Requirement::fewer_bad) return fewer_bad;
   if (best < now) return false;
-  return required == Requirement::not_worse || now.bad < best.bad || now.missing_lengths < best.missing_lengths;
+  return required == Requirement::not_worse || fewer_bad || now.missing_lengths < best.missing_lengths;
 }
 
 bool replaces(const WorkingCopy& now, const WorkingCopy& best, Requirement required, const Settings& settings,
@@ -163,7 +165,12 @@ MeshScore count(const Mesh& mesh, const Settings& settings, const WorkingUnits& 
               count_worse(mesh, settings.worst_violation, settings.executor()),
           settings.policy.allows_inversion() ? count_inverted(mesh) : 0,
           count_non_regular_edges(mesh, false, settings.executor()),
-          settings.changes_least() ? count_violations(mesh, settings) : 0, count_bad(mesh, settings.executor())};
+          settings.counts_violations() ? count_violations(mesh, settings) : 0, count_bad(mesh, settings.executor())};
+}
+
+bool is_unfinished(const Mesh& mesh, const Settings& settings) {
+  if (settings.criterion == Criterion::well_centered) return count_bad(mesh, settings.executor()) > 0;
+  return !meets(mesh, settings.criterion, settings.executor());
 }
 
 std::size_t count_violations(const Mesh& mesh, const Settings& settings) {

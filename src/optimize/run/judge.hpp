@@ -32,9 +32,9 @@ namespace temper {
 
 /// A smaller score is better. What is worse than in the input comes first: measures of the guard (guard.hpp), and
 /// triangles that are farther from well-centered than any of the input. Then validity. Then regularity, unless the user
-/// keeps hidden vertices. Then, if the least may change, violations of the criterion. Then, for a barrier, the number
-/// of triangles that are not well-centered. Then the margins of the accuracy objective, and missing lengths. Then the
-/// energy, or the error of the solver.
+/// keeps hidden vertices. Then, if Settings::counts_violations(), violations of the criterion. Then, for a barrier, the
+/// number of triangles that are not well-centered. Then the margins of the accuracy objective, and missing lengths.
+/// Then the energy, or the error of the solver.
 struct MeshScore {
   std::size_t beyond_guard = 0, inverted = 0, non_regular = 0, violations = 0, bad = 0;
   bool lacks_margins = false;
@@ -46,7 +46,7 @@ struct MeshScore {
 /// The condition on which a mesh replaces the best mesh so far.
 enum class Requirement {
   not_worse,  ///< an equal score will do
-  fewer_bad,  ///< fewer triangles that are not well-centered, whatever the rest
+  fewer_bad,  ///< fewer violations, or as many and fewer triangles that are not well-centered, whatever the rest
   cures,      ///< no worse, and fewer bad triangles or missing lengths: a mesh of fewer vertices always has less energy
 };
 [[nodiscard]] bool replaces(const MeshScore& now, const MeshScore& best, Requirement required);
@@ -61,6 +61,8 @@ enum class Requirement {
 [[nodiscard]] MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings,
                               const EnergyModel& model, const VertexSizes* sizes);
 
+/// Says whether the mesh violates the criterion of the settings. O(n).
+[[nodiscard]] bool is_unfinished(const Mesh& mesh, const Settings& settings);
 /// Counts the violations of the criterion: triangles that are not well-centered, or duals of edges.
 [[nodiscard]] std::size_t count_violations(const Mesh& mesh, const Settings& settings);
 

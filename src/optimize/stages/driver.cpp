@@ -382,10 +382,14 @@ void Driver::coarsen(int moves_of_cure) {
 
 int Driver::polish(int sweep) {
   const WorkingCopy before = work_;
-  const std::size_t bad = count_bad(mesh_, settings_.executor());
+  const auto measure = [&] {
+    const bool by_triangles = settings_.criterion == Criterion::well_centered;
+    return std::pair(by_triangles ? 0 : count_violations(mesh_, settings_), count_bad(mesh_, settings_.executor()));
+  };
+  const auto bad = measure();
   EnergyPhase phase(work_, settings_, state_, run_, kPolish);
   const int last = run(phase, sweep);
-  if (count_bad(mesh_, settings_.executor()) <= bad) return last;
+  if (measure() <= bad) return last;
   work_ = before;
   recorder_.returned_to(sweep);
   return sweep;

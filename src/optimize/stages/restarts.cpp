@@ -62,16 +62,19 @@ std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings&
           " triangles are not well-centered; expected a mesh inside its barrier, or energy BP, which needs none"};
 }
 
-bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.executor()) > 0; }
+bool has_bad(const Candidate& c, const Settings& s) { return is_unfinished(c.work.mesh, s); }
 
 /// Says whether so few triangles of c are bad that each is far from all others. Another restart would leave as many bad
 /// triangles elsewhere, while a repair of each is quick. A search can keep each place that it has cured. It needs no
 /// copy to return to, for which large meshes leave no memory: it never makes more triangles bad, and trials sweep each
 /// place.
+/// Next to faces that stay, another restart finds the same sites in its way.
 bool are_apart(const Candidate& c, const Settings& s) {
-  constexpr double kMost = 1e-5;
-  const auto bad = static_cast<double>(count_bad(c.work.mesh, s.executor()));
-  return bad > 0 && bad < kMost * static_cast<double>(c.work.mesh.n_triangles());
+  constexpr double kMost = 1e-5, kMostAtFaces = 1e-2;
+  const bool at_faces = s.criterion != Criterion::well_centered;
+  const std::size_t bad = at_faces ? count_violations(c.work.mesh, s) : count_bad(c.work.mesh, s.executor());
+  const auto n = static_cast<double>(c.work.mesh.n_triangles());
+  return bad > 0 && static_cast<double>(bad) < (at_faces ? kMostAtFaces : kMost) * n;
 }
 
 /// Says whether a repair could improve c: it has bad triangles, or edges that are too short.

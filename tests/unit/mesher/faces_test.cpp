@@ -78,6 +78,11 @@ std::vector<NamedOutline> networks() {
        with_faces({{{5, 3}, {8, 3}}, {{5, 3}, {5.5, 5}}, {{5, 3}, {3, 4.5}}, {{5, 3}, {2.5, 2}}, {{5, 3}, {6, 1}}})},
       {"beside each other", with_faces({{{2, 2}, {8, 2}}, {{2.1, 2.2}, {7.9, 2.3}}})},
       {"tip at a line", with_faces({{{2, 2}, {8, 2}}, {{5, 2.1}, {5.3, 4}}})},
+      {"tip between two pieces",
+       with_faces({{{2.86, 4.15}, {3.48, 2.63}, {3.21, 1.06}}, {{1.75, 3.87}, {2.97, 2.51}}})},
+      {"small angles",
+       with_faces(
+           {{{3.18, 1.32}, {4.02, 3.07}}, {{3.45, 1.3}, {3.93, 3.88}}, {{0.5, 3.41}, {2.84, 1.73}, {3.68, 0.7}}})},
       {"through the domain", with_faces({{{4, 0}, {5, 6}}})},
       {"low on the boundary", with_faces({{{2, 0}, {7, 2}}})},
       {"border", border()},
@@ -150,6 +155,8 @@ TEST(Faces, LieOnTheirLinesAndNoCoefficientIsNegative) {
   for (const auto& [name, outline] : networks()) {
     const OutlineMesh made = meshed(outline);
     expect_faces(name, outline, made.mesh);
+    EXPECT_EQ(made.attempts, 1) << name;
+    EXPECT_LT(made.report.sweeps, OptimizeOptions().max_sweeps) << name << ": sites that stay need no more restarts";
     double whole = 0;
     for (const MeshLine& line : made.lines) {
       const HalfedgeId h = made.mesh.find_halfedge(line.a, line.b);

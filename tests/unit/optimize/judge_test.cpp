@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace temper {
@@ -25,11 +26,11 @@ TEST(Judge, ReplacesByTheFirstPlaceThatDiffersAndKeepsTiesOnlyWhereTheyWillDo) {
     for (std::size_t j = 0; j < scores.size(); ++j) {
       SCOPED_TRACE(testing::Message() << i << " for " << j);
       const MeshScore &now = scores[i], &best = scores[j];
+      const bool fewer_bad = std::pair(now.violations, now.bad) < std::pair(best.violations, best.bad);
       const bool cures =
-          now.beyond_guard < best.beyond_guard || now.bad < best.bad || now.missing_lengths < best.missing_lengths;
+          now.beyond_guard < best.beyond_guard || fewer_bad || now.missing_lengths < best.missing_lengths;
       ASSERT_EQ(replaces(now, best, Requirement::not_worse), i <= j);
-      const bool fewer =
-          now.beyond_guard != best.beyond_guard ? now.beyond_guard < best.beyond_guard : now.bad < best.bad;
+      const bool fewer = now.beyond_guard != best.beyond_guard ? now.beyond_guard < best.beyond_guard : fewer_bad;
       ASSERT_EQ(replaces(now, best, Requirement::fewer_bad), fewer);
       ASSERT_EQ(replaces(now, best, Requirement::cures), i <= j && cures);
     }
