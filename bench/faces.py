@@ -285,26 +285,23 @@ class Duals:
 
     def __init__(self, points, weights, triangles):
         centers = orthocenters(points, weights, triangles)
-        sides = {}
-        for t, tri in enumerate(triangles):
-            a, b, c = points[tri]
-            turned = cross(b - a, c - a) < 0
-            for k in range(3):
-                i, j = tri[k], tri[(k + 1) % 3]
-                sides.setdefault((min(i, j), max(i, j)), []).append((t, (i < j) != turned))
-        self.edges = np.array(list(sides))
-        self.length = np.empty(len(sides))
-        self.ends = np.full((len(sides), 2, 2), np.nan)
-        for e, ((i, j), found) in enumerate(sides.items()):
-            along = points[j] - points[i]
-            normal = np.array([-along[1], along[0]]) / np.linalg.norm(along)
-            height = 0.0
-            for t, left in found:
-                height += np.dot(centers[t] - points[i], normal) * (1 if left else -1)
-            self.length[e] = height
-            if len(found) == 2:
-                self.ends[e] = centers[found[0][0]], centers[found[1][0]]
-        self.size = np.linalg.norm(points[self.edges[:, 1]] - points[self.edges[:, 0]], axis=1)
+        a, b, c = (points[triangles[:, k]] for k in range(3))
+        turned = cross(b - a, c - a) < 0
+        ends = np.vstack([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+        left = (ends[:, 0] < ends[:, 1]) != np.tile(turned, 3)
+        of_triangle = np.tile(np.arange(len(triangles)), 3)
+        self.edges, edge = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True)
+        edge = edge.ravel()
+        along = points[self.edges[:, 1]] - points[self.edges[:, 0]]
+        self.size = np.linalg.norm(along, axis=1)
+        normal = np.c_[-along[:, 1], along[:, 0]] / self.size[:, None]
+        height = np.sum((centers[of_triangle] - points[self.edges[edge, 0]]) * normal[edge], axis=1)
+        self.length = np.bincount(edge, np.where(left, height, -height), len(self.edges))
+        self.ends = np.full((len(self.edges), 2, 2), np.nan)
+        order = np.argsort(edge, kind="stable")
+        twins = np.flatnonzero(edge[order][:-1] == edge[order][1:])
+        for k in (0, 1):
+            self.ends[edge[order[twins]], k] = centers[of_triangle[order[twins + k]]]
 
 
 def covered(intervals):
@@ -333,10 +330,10 @@ def judge(points, weights, triangles, pairs, segments):
         found += covered([(s.min(), s.max()) for s in along[good]])
         whole += length
     faces_of = [[] for _ in points]
-    for (i, j), length in zip(duals.edges, duals.length):
-        if length > 1e-6 * np.median(duals.size):
-            faces_of[i].append(length)
-            faces_of[j].append(length)
+    is_face = duals.length > 1e-6 * duals.size
+    for (i, j), length in zip(duals.edges[is_face], duals.length[is_face]):
+        faces_of[i].append(length)
+        faces_of[j].append(length)
     least = np.inf
     for e in np.flatnonzero(on_fault):
         i, j = duals.edges[e]

@@ -188,6 +188,8 @@ class CorridorMaker {
       const double t = distances_.free_way(node.at, direction, kFar * node.size, node.point, node.point);
       places.push_back(node.at + t * direction);
     }
+    const bool is_beyond = places.empty() || cross(at(to) - at(from), places.front() - at(from)) < 0;
+    if (gap < std::numbers::pi && !is_beyond) return {};  // another line is near, and the polygon needs no site there
     return places;
   }
 
@@ -245,9 +247,15 @@ class CorridorMaker {
     }
   }
 
-  /// Only the two sites of a branch may reach as far along it as they do: the polygon has a side across the branch.
+  /// A site at a corner that is not convex would have no cell. Only the two sites of a branch may reach as far along it
+  /// as they do: the polygon has a side across the branch.
   void check_convex(const FaceNode& node, const std::vector<std::uint32_t>& polygon) {
     constexpr double kShort = 1e-3;  // of the reach
+    constexpr double kFlat = 1e-6;   // sine of the turn at a corner
+    for (std::size_t i = 0, n = polygon.size(); i < n; ++i) {
+      const Vec2 b = at(polygon[(i + 1) % n]), to = b - at(polygon[i]), on = at(polygon[(i + 2) % n]) - b;
+      if (cross(to, on) < kFlat * length(to) * length(on)) return add_too_long(node);
+    }
     for (const Branch& b : node.branches) {
       std::size_t n_far = 0;
       for (const std::uint32_t site : polygon)
