@@ -172,6 +172,7 @@ void bind_generate(py::module_& m);
 void bind_geometry(py::module_& m);
 void bind_change(py::module_& m);
 void bind_dec(py::module_& m);
+void bind_columns(py::module_& m);
 void bind_optimize(py::module_& m);
 void bind_measure(py::module_& m);
 void bind_weights(py::module_& m);

@@ -287,5 +287,6 @@ PYBIND11_MODULE(_temper, m) {
   bind_optimize(m);
   bind_measure(m);
   bind_dec(m);
+  bind_columns(m);
   bind_weights(m);
 }

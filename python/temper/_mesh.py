@@ -11,6 +11,7 @@ import numpy.typing as npt
 from . import _temper
 from ._cells import Cells
 from ._errors import TemperError, TemperWarning
+from ._faces import LineFaces
 from ._gmsh import is_model, put_back_model
 from ._others import cells_of, data_of, handle_of, meshio_form, meshio_of, put_back_vtk, tags_of_32_bits
 from ._space import Space
@@ -407,6 +408,23 @@ class Mesh(Tagged):
         return self._file()["line_tags"]
 
     # --- methods --------------------------------------------------------------------------------------------
+
+    def faces_of(self, name: str | int) -> LineFaces:
+        """The faces of power cells on a line, such as a fault: pairs of vertices, ends and lengths.
+
+        Parameters
+        ----------
+        name : str or int
+            The name or tag of a line that ``temper mesh --faces`` or ``mesh_outline`` has made faces.
+
+        Raises
+        ------
+        TemperError
+            No line inside the domain has the name or tag, or the line runs through the centers of cells.
+        ValueError
+            The mesh is not in the plane.
+        """
+        return LineFaces(**_temper.faces_of_line(self._handle, str(name)))
 
     def set_constrained(self, edges: npt.ArrayLike, constrained: bool = True) -> None:
         """Marks edges, (k, 2) pairs of vertices, so that they never flip, or removes the mark. TemperError if the mesh

@@ -5,6 +5,7 @@ Submodules have such classes of their own, for example ``temper.topology``.
 """
 
 from ._polygons import CellPolygons
+from ._faces import LineFaces
 from ._dec import Barrier, Columns, DecComplex, DecEdges, IncidenceMatrix, PowerCells, TetDecComplex, TetDecEdges, TetDecFaces
 from ._draw import Html, Svg
 from ._io import Format

@@ -123,6 +123,47 @@ def test_barriers_are_on_the_edges_of_lines(mesh, tmp_path):
         temper.barriers_of_lines(mesh, {"fault": 1.0})
 
 
+@pytest.fixture(scope="module")
+def faulted():
+    """A plate with a fault of one bend, which is faces, and a river, which is edges."""
+    points = [(0, 0), (10, 0), (10, 6), (0, 6), (2, 2), (5, 2.5), (8, 4), (1, 5), (9, 5)]
+    segments = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (7, 8)]
+    groups = [(1, 7, "fault"), (1, 9, "river")]
+    outline = temper.Outline(points, segments, [1, 1, 1, 1, 7, 7, 9], groups=groups, faces=[4, 5])
+    return temper.mesh_outline(outline, 0.5, target="vertex").mesh
+
+
+def test_faces_of_a_line_are_the_faces_of_its_cells(faulted, tmp_path):
+    faces = faulted.faces_of("fault")
+    assert faces.vertices.shape == (len(faces.length), 2) and faces.ends.shape == (len(faces.length), 2, 2)
+    assert faces.length.sum() == pytest.approx(np.hypot(3, 0.5) + np.hypot(3, 1.5), rel=1e-12)
+    way = faces.ends[:, 1] - faces.ends[:, 0]
+    assert np.allclose(np.linalg.norm(way, axis=1), faces.length, rtol=1e-12)
+    for k, sign in ((0, 1), (1, -1)):  # the first cell is on the left, and both have equal power at the ends
+        to = faulted.points[faces.vertices[:, k]] - faces.ends[:, 0]
+        assert (sign * (way[:, 0] * to[:, 1] - way[:, 1] * to[:, 0]) > 0).all()
+    for end in (0, 1):
+        away = ((faulted.points[faces.vertices] - faces.ends[:, [end]]) ** 2).sum(axis=2) - faulted.weights[faces.vertices]
+        assert np.allclose(away[:, 0], away[:, 1], atol=1e-12)
+    cells = temper.power_cells(faulted)
+    widths = {tuple(pair): width for pair, width in zip(cells.faces.tolist(), cells.face_width)}
+    assert np.allclose([widths[tuple(sorted(pair))] for pair in faces.vertices.tolist()], faces.length, rtol=1e-9)
+    barriers = temper.barriers_of_lines(faulted, {"fault": 1.0}, "power")
+    assert [[b.first, b.second] for b in barriers] == faces.vertices.tolist()
+    assert (faulted.faces_of(7).vertices == faces.vertices).all()
+    temper.write(tmp_path / "fault.vtu", faulted)
+    assert (temper.read(tmp_path / "fault.vtu").faces_of("fault").vertices == faces.vertices).all()
+
+
+def test_lines_without_faces_are_refused_by_name(faulted):
+    with pytest.raises(temper.TemperError, match="faces of 'river': its line runs through the centers of power cells"):
+        faulted.faces_of("river")
+    with pytest.raises(temper.TemperError, match="faces of 'wall': no line inside the domain has this name or tag"):
+        faulted.faces_of("wall")
+    with pytest.raises(ValueError, match="plane"):
+        temper.generate.random_sphere(vertices=100).faces_of("fault")
+
+
 def test_spheres_have_cells_but_no_grid():
     sphere = temper.generate.random_sphere(vertices=100)
     cells = temper.power_cells(sphere)

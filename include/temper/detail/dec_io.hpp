@@ -79,6 +79,18 @@ struct Barrier {
     const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
     std::span<const std::pair<std::string, double>> characteristics, CellsOf of);
 
+/// A piece of a line that is a face of two power cells.
+struct LineFace {
+  VertexId first, second;  ///< Vertices of the two cells. The first is on the left of the way between the ends
+  Vec2 from, to;           ///< Ends of the face
+  double length = 0;
+};
+
+/// The faces on a tagged line, by its name or tag, in the order of the lines of the file. Errors: no inner line has the
+/// name or tag; it is not faces of power cells (temper/detail/faces.hpp). Precondition: the mesh is in the plane.
+[[nodiscard]] Expected<std::vector<LineFace>> faces_of_line(const MeshFile& file, const LoadedMesh& loaded,
+                                                            const Mesh& mesh, const std::string& name);
+
 struct DecWriteOptions {
   std::vector<DecFormat> formats = {DecFormat::npz, DecFormat::mtx, DecFormat::vtu};
   std::span<const std::size_t> points = {};  ///< Point of the file for each vertex, from 0; empty: the same numbers

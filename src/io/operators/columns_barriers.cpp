@@ -1,9 +1,11 @@
-// Barriers between cells, for the package HFB of MODFLOW 6 (its input guide, mf6io, chapter GWF-HFB).
+// Faces on lines, and barriers between cells for the package HFB of MODFLOW 6 (its input guide, mf6io, chapter
+// GWF-HFB).
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "io/operators/dec_files.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::io {
 namespace {
@@ -44,6 +46,39 @@ void check_barrier(const DecJob& job, const Barrier& barrier) {
        " have no common face; expected two neighbors");
 }
 
+/// How errors call the line, such as "barrier 'fault'", and the cells on its two sides.
+struct Wanted {
+  std::string what;
+  CellsOf of;
+};
+
+/// The inner edges of the lines with a name or tag. They are faces of power cells, or edges of triangles, as wanted.
+std::vector<HalfedgeId> edges_of_line(const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
+                                      const std::string& name, const Wanted& wanted) {
+  const bool of_vertices = wanted.of == CellsOf::vertices;
+  const auto vertex = [&](std::int32_t p) {
+    const std::int32_t v = loaded.vertex_of_point[static_cast<std::size_t>(p)];
+    return v < 0 ? VertexId() : VertexId(static_cast<std::size_t>(v));
+  };
+  const std::vector<std::int32_t> tags = tags_of_lines(file, name);
+  std::vector<HalfedgeId> edges;
+  for (std::size_t i = 0; i < file.lines.size(); ++i) {
+    const VertexId a = vertex(file.lines[i][0]), b = vertex(file.lines[i][1]);
+    if (std::ranges::find(tags, file.lines.tags[i]) == tags.end() || !a.valid() || !b.valid()) continue;
+    const HalfedgeId h = mesh.find_halfedge(a, b);
+    if (!h.valid() || mesh.is_boundary(h)) continue;
+    if (mesh.is_face(h) != of_vertices)
+      fail(ErrorCode::invalid_option, "", wanted.what, ": its line runs ",
+           of_vertices ? "through the centers of power cells; expected faces of them. Next: mesh the outline with "
+                         "--faces, or take triangles as cells"
+                       : "between power cells, whose faces it is. Next: take power cells, not triangles");
+    edges.push_back(h);
+  }
+  if (edges.empty())
+    fail(ErrorCode::invalid_option, "", wanted.what, ": no line inside the domain has this name or tag");
+  return edges;
+}
+
 }  // namespace
 
 Expected<std::vector<Barrier>> barriers_of_lines(const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
@@ -51,35 +86,34 @@ Expected<std::vector<Barrier>> barriers_of_lines(const MeshFile& file, const Loa
                                                  CellsOf of) {
   return guarded<std::vector<Barrier>>(file.path, [&] {
     std::vector<Barrier> barriers;
-    const bool of_vertices = of == CellsOf::vertices;
-    const std::string_view other =
-        of_vertices ? "through the centers of power cells; expected faces of them. Next: mesh the outline with "
-                      "--faces, or take triangles as cells"
-                    : "between power cells, whose faces it is. Next: take power cells, not triangles";
-    const auto vertex = [&](std::int32_t p) {
-      const std::int32_t v = loaded.vertex_of_point[static_cast<std::size_t>(p)];
-      return v < 0 ? VertexId() : VertexId(static_cast<std::size_t>(v));
-    };
     for (const auto& [name, value] : characteristics) {
+      const std::string what = text("barrier '", name, "'");
       if (!std::isfinite(value))
-        fail(ErrorCode::not_finite, "", "barrier '", name, "': expected a finite hydraulic characteristic, found ",
-             value);
-      const std::vector<std::int32_t> tags = tags_of_lines(file, name);
-      const std::size_t before = barriers.size();
-      for (std::size_t i = 0; i < file.lines.size(); ++i) {
-        const VertexId a = vertex(file.lines[i][0]), b = vertex(file.lines[i][1]);
-        if (std::ranges::find(tags, file.lines.tags[i]) == tags.end() || !a.valid() || !b.valid()) continue;
-        const HalfedgeId h = mesh.find_halfedge(a, b), twin = mesh.find_halfedge(b, a);
-        if (!h.valid() || !twin.valid()) continue;
-        if (mesh.is_face(h) != of_vertices)
-          fail(ErrorCode::invalid_option, "", "barrier '", name, "': its line runs ", other);
-        barriers.push_back({name, of_vertices ? a.index : Mesh::triangle(h).index,
-                            of_vertices ? b.index : Mesh::triangle(twin).index, value});
+        fail(ErrorCode::not_finite, "", what, ": expected a finite hydraulic characteristic, found ", value);
+      for (const HalfedgeId h : edges_of_line(file, loaded, mesh, name, {what, of})) {
+        const bool of_vertices = of == CellsOf::vertices;
+        barriers.push_back({name, of_vertices ? mesh.origin(h).index : Mesh::triangle(h).index,
+                            of_vertices ? mesh.target(h).index : Mesh::triangle(mesh.twin(h)).index, value});
       }
-      if (barriers.size() == before)
-        fail(ErrorCode::invalid_option, "", "barrier '", name, "': no line inside the domain has this name or tag");
     }
     return barriers;
+  });
+}
+
+Expected<std::vector<LineFace>> faces_of_line(const MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
+                                              const std::string& name) {
+  return guarded<std::vector<LineFace>>(file.path, [&] {
+    std::vector<LineFace> faces;
+    const auto center = [&](HalfedgeId h) {
+      const auto [a, b, c] = mesh.points(Mesh::triangle(h));
+      return orthocenter(a, b, c);
+    };
+    for (const HalfedgeId h :
+         edges_of_line(file, loaded, mesh, name, {text("faces of '", name, "'"), CellsOf::vertices})) {
+      const Vec2 from = center(mesh.twin(h)), to = center(h);
+      faces.push_back({mesh.origin(h), mesh.target(h), from, to, length(to - from)});
+    }
+    return faces;
   });
 }
 
