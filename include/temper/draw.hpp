@@ -1,6 +1,7 @@
 // Pictures of primal-dual meshes, as SVG text.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -25,10 +26,17 @@ struct TriangleColors {
   std::vector<IdVector<TriangleId, double>> values;  ///< Value of each triangle, for each panel
 };
 
+/// A line on faces of power cells, such as a fault.
+struct FaceLine {
+  std::string name;  ///< Name next to the line; may be empty
+  std::vector<std::array<Vec2, 2>> pieces;
+};
+
 /// Cells filled by their regions, in the place of triangles. Colors repeat after the eighth region.
 struct RegionCells {
   std::vector<CellPolygons> panels;                ///< Cells of each panel, in a plane
   std::map<std::int32_t, std::string> names = {};  ///< Names of regions, for the legend
+  std::vector<std::vector<FaceLine>> lines = {};   ///< Lines on faces of the cells of each panel; empty: none
 };
 
 struct DrawOptions {

@@ -128,6 +128,8 @@ std::vector<Key> legend(std::span<const Shown> shown, const Viewport& viewport, 
   } else if (options.fill && any(shown, [](const Panel& p) { return p.bad < p.elements; })) {
     keys.push_back(scale_key("margin", words.margins));
   }
+  if (any(shown, [](const Panel& p) { return p.faces; }))
+    keys.push_back({"line on faces of cells", line_mark(Palette::outline, "stroke-linecap=\"round\"")});
   if (any(shown, [](const Panel& p) { return p.dual; })) keys.push_back({"dual edge", line_mark(Palette::dual)});
   if (any(shown, [](const Panel& p) { return p.negative_dual; })) {
     keys.push_back({"negative dual edge", line_mark(Palette::warning, "stroke-dasharray=\"0.35 0.2\"")});

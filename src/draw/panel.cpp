@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "draw/face_lines.hpp"
 #include "draw/painter.hpp"
 #include "draw/text.hpp"
 #include "draw/viewport.hpp"
@@ -47,6 +48,7 @@ class PanelPainter : public Painter {
     fill_triangles();
     if (options_.cells) fill_cells();
     if (options_.primal) draw_edges();
+    draw_face_lines();
     if (options_.dual && detailed_) draw_dual();
     if (options_.weights && detailed_) draw_weights();
     draw_periods();
@@ -160,12 +162,19 @@ class PanelPainter : public Painter {
     PathText plain, kept;
     for (HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h)) continue;
-      const bool outline = mesh_.is_unflippable(h);
+      const bool outline = mesh_.is_unflippable(h) && !is_beside_face(mesh_, h);
       if (!outline && (options_.cells || !viewport_.shows_edges())) continue;
       const WeightedPoint from = mesh_.point(mesh_.origin(h));
       add_line(outline ? kept : plain, from, mesh_.point(mesh_.target(h), from));
     }
     stroke_edges(plain, kept);
+  }
+
+  void draw_face_lines() {
+    if (!options_.cells || number_ >= options_.cells->lines.size()) return;
+    const Panel lines = draw_lines(options_.cells->lines[number_], viewport_, options_);
+    panel_.svg += lines.svg;
+    panel_.faces = lines.faces;
   }
 
   // Dual edges run between the orthocenters on both sides, or from an orthocenter to the weighted midpoint of a

@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <map>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -17,6 +20,7 @@
 #include "options/options.hpp"
 #include "temper/dec.hpp"
 #include "temper/detail/cells.hpp"
+#include "temper/detail/dec_io.hpp"
 #include "temper/detail/read_number.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/draw.hpp"
@@ -75,8 +79,7 @@ void add_options(Command& command, DrawSettings& s) {
   add_choice(
       command, "--cells", kCellsOf, [&s](CellsOf value) { s.cells = value; },
       "Cells to fill by their regions, instead of triangles by their margin: power cells or triangles. Of the edges, "
-      "only "
-      "boundaries and lines are drawn.");
+      "only boundaries and lines are drawn. Lines on faces of power cells are thick, and have their names.");
   add_tensor(command, s.metric, "Draw meshes");
   command.add_flag("--numbers", s.options.vertex_numbers, "Number the vertices, from 0.");
   add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "Factor on the radius of weight circles.");
@@ -140,6 +143,24 @@ void set_colors(DrawOptions& options, const std::string& name, std::initializer_
   for (const Input* panel : panels) options.colors->values.push_back(values_of(*panel, name));
 }
 
+/// The lines on faces of power cells, with their names.
+std::vector<FaceLine> face_lines(const Input& input) {
+  std::map<std::int32_t, std::string> names;
+  for (const PhysicalName& name : input.file.names) {
+    if (name.dimension == 1) names.emplace(name.tag, name.name);
+  }
+  const std::set<std::int32_t> tags(input.file.lines.tags.begin(), input.file.lines.tags.end());
+  std::vector<FaceLine> lines;
+  for (const std::int32_t tag : tags) {
+    const auto faces = io::faces_of_line(input.file, input.loaded, input.mesh(), std::to_string(tag));
+    if (!faces) continue;  // on edges of triangles
+    FaceLine& line = lines.emplace_back();
+    if (const auto name = names.find(tag); name != names.end()) line.name = name->second;
+    for (const io::LineFace& face : *faces) line.pieces.push_back({face.from, face.to});
+  }
+  return lines;
+}
+
 /// The cells of the panels, from left to right.
 void set_cells(DrawOptions& options, const std::optional<CellsOf>& of, std::initializer_list<const Input*> panels) {
   if (!of) return;
@@ -147,6 +168,7 @@ void set_cells(DrawOptions& options, const std::optional<CellsOf>& of, std::init
   for (const Input* panel : panels) {
     expect_plane(panel->mesh(), panel->path, "--cells");
     options.cells->panels.push_back(cell_polygons(panel->mesh(), dec_operators(panel->mesh()), *of));
+    options.cells->lines.push_back(*of == CellsOf::vertices ? face_lines(*panel) : std::vector<FaceLine>());
     for (const PhysicalName& name : panel->file.names) {
       if (name.dimension == 2) options.cells->names.emplace(name.tag, name.name);
     }

@@ -77,6 +77,23 @@ TEST_F(Draw, CellsAreFilledByRegionAndTheLegendNamesThem) {
   EXPECT_EQ(temper({"draw", "a.msh", "-o", "p.svg", "--cells", "power", "--color", "angle"}).exit, 2);
 }
 
+TEST_F(Draw, LinesOnFacesOfPowerCellsHaveTheirNames) {
+  write("o.geojson", R"({"type": "FeatureCollection", "crs": "EPSG:32632", "features": [)"
+                     R"({"type": "Feature", "properties": {}, "geometry": {"type": "Polygon",)"
+                     R"( "coordinates": [[[0, 0], [90, 0], [90, 60], [0, 60], [0, 0]]]}}, )"
+                     R"({"type": "Feature", "properties": {"name": "river"}, "geometry": {"type": "LineString",)"
+                     R"( "coordinates": [[20, 50], [70, 50]]}}, )"
+                     R"({"type": "Feature", "properties": {"name": "fault"}, "geometry": {"type": "LineString",)"
+                     R"( "coordinates": [[20, 20], [45, 30], [70, 30]]}}]})");
+  temper_ok({"mesh", "o.geojson", "-o", "f.vtu", "--size", "12", "--faces", "fault", "--for", "vertex"});
+  temper_ok({"draw", "f.vtu", "-o", "p.svg", "--cells", "power"});
+  const std::string svg = read("p.svg");
+  EXPECT_TRUE(contains(svg, "class=\"face\"") && contains(svg, ">fault</text>")) << svg;
+  EXPECT_FALSE(contains(svg, ">river</text>")) << "a line on edges of triangles";
+  temper_ok({"draw", "f.vtu", "-o", "t.svg", "--cells", "triangles"});
+  EXPECT_FALSE(contains(read("t.svg"), "class=\"face\""));
+}
+
 TEST_F(Draw, TheSuffixTellsTheFormat) {
   make_input("a.vtu");
   for (const auto& [name, begin] :

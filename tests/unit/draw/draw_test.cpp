@@ -12,6 +12,7 @@
 
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
+#include "temper/dec.hpp"
 #include "temper/detail/geometry.hpp"
 #include "unit/draw/svg_reading.hpp"
 
@@ -68,6 +69,25 @@ TEST(Draw, ColorsAreOnOneScaleOfAllPanelsInsteadOfBadTriangles) {
   EXPECT_NE(svg.find("a &lt; b: 0 to 149"), std::string::npos);
   // 0 to 49 and 100 to 149, of ten colors four in each panel; and infinity has the last one in both.
   EXPECT_EQ(count(svg, "class=\"value\""), 9u);
+}
+
+TEST(Draw, LinesOnFacesOfCellsAreThickAndHaveNamesWhereTheyAreSeen) {
+  const Mesh mesh = lattice({.n = 10, .jitter = 0.1});
+  DrawOptions options;
+  options.cells = RegionCells{{cell_polygons(mesh, dec_operators(mesh), CellsOf::vertices)}};
+  const std::string plain = draw_svg(mesh, options);
+  options.cells->lines = {
+      {{"a < b", {{Vec2{1, 1}, Vec2{3, 2}}, {Vec2{3, 2}, Vec2{5, 2}}}}, {"", {{Vec2{1, 4}, Vec2{2, 5}}}}}};
+  const std::string svg = draw_svg(mesh, options);
+  expect_well_formed(svg);
+  EXPECT_FALSE(has_class(plain, "face"));
+  EXPECT_EQ(count(path_of(svg, "face"), "m") + count(path_of(svg, "face"), "M"), 2u) << "pieces that meet are one path";
+  EXPECT_EQ(count(svg, ">a &lt; b</text>"), 1u);
+  EXPECT_EQ(count(svg, ">line on faces of cells</text>"), 1u);
+  options.zoom = Box{{6, 6}, {8, 8}};
+  const std::string elsewhere = draw_svg(mesh, options);
+  EXPECT_FALSE(has_class(elsewhere, "face"));
+  EXPECT_FALSE(has_class(elsewhere, "names"));
 }
 
 TEST(Draw, APictureOfEverythingIsWellFormed) {
