@@ -287,18 +287,23 @@ def main():
     folder = pathlib.Path(options.keep or tempfile.mkdtemp())
     folder.mkdir(exist_ok=True)
     endings, times, failed = collections.Counter(), [], 0
-    for number in range(options.first, options.first + options.networks):
-        net = Network(options.seed, number)
-        ending, is_right, seconds, found = run_one(options.temper, net, folder, number)
-        endings[ending] += 1
-        times.append(seconds)
-        if not is_right:
-            failed += 1
-            print(f"{number}: {ending} {found or ''} ({seconds:.1f} s)", flush=True)
-        else:
-            (folder / f"{number}.geojson").unlink()
-        (folder / f"{number}.vtu").unlink(missing_ok=True)
-    print(f"\n{len(times)} networks, {failed} failed; seconds of a processor: median {statistics.median(times):.2f}, largest {max(times):.1f}")
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # shells ignore it for jobs in the background
+    try:
+        for number in range(options.first, options.first + options.networks):
+            net = Network(options.seed, number)
+            ending, is_right, seconds, found = run_one(options.temper, net, folder, number)
+            endings[ending] += 1
+            times.append(seconds)
+            if not is_right:
+                failed += 1
+                print(f"{number}: {ending} {found or ''} ({seconds:.1f} s)", flush=True)
+            else:
+                (folder / f"{number}.geojson").unlink()
+            (folder / f"{number}.vtu").unlink(missing_ok=True)
+    except KeyboardInterrupt:
+        print("interrupted")
+    median, largest = statistics.median(times or [0.0]), max(times, default=0.0)
+    print(f"\n{len(times)} networks, {failed} failed; seconds of a processor: median {median:.2f}, largest {largest:.1f}")
     print("\n| ending | networks |\n|-|-|")
     for ending, count in endings.most_common():
         print(f"| {ending} | {count} |")

@@ -35,11 +35,11 @@ struct Laid {
 [[nodiscard]] bool has_faces(const Domain& domain);
 
 /// The first line that cannot become faces, with place and reason: on a sphere or with few points, at named points, at
-/// corners of the boundary, at bends and branches of other lines.
+/// corners of the boundary, at bends of borders, at branches of other lines, at angles below 1 degree.
 [[nodiscard]] std::optional<InputError> check_faces(const Problem& problem, const Domain& domain);
 
-/// Warnings of lines that end on a face, and become shorter.
-void warn_of_ends_on_faces(const Problem& problem, Domain& domain);
+/// Warnings of lines that end on a face, and become shorter, or bend there, and cut the bend.
+void warn_of_lines_at_faces(const Problem& problem, Domain& domain);
 
 /// Precondition: check_faces() found nothing.
 [[nodiscard]] Laid lay_corridors(const Problem& problem, const Domain& domain, const DividedOutline& divided);

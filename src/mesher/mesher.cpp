@@ -77,7 +77,7 @@ class Mesher {
     if (!domain) return domain.error();
     domain_ = *std::move(domain);
     if (auto error = check_faces(problem_, domain_)) return error;
-    warn_of_ends_on_faces(problem_, domain_);
+    warn_of_lines_at_faces(problem_, domain_);
     if (problem_.has_few_points()) {
       expected_ = 2 * static_cast<double>(domain_.arrangement.places.size());
       return {};

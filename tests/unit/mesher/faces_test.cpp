@@ -59,6 +59,14 @@ Outline river(double degrees) {
   return o;
 }
 
+/// A river with a bend, and a fault through it.
+Outline bend(const std::vector<Vec2>& fault) {
+  Outline o = plate();
+  add_line(o, {{1, 2}, {5, 3}, {8, 1}}, false, kRiver);
+  add_faces(o, fault);
+  return o;
+}
+
 Outline wells() {
   Outline o = with_faces({{{2, 2}, {8, 4}}});
   o.points.insert(o.points.end(), {{4, 3.1}, {6.1, 3}});
@@ -87,6 +95,9 @@ std::vector<NamedOutline> networks() {
       {"low on the boundary", with_faces({{{2, 0}, {7, 2}}})},
       {"border", border()},
       {"wells", wells()},
+      {"on a bend of a river", bend({{5, 3}, {5, 5}})},
+      {"inside a bend of a river", bend({{5, 3}, {5, 1}})},
+      {"through a bend of a river", bend({{4.5, 1}, {5, 3}, {6, 5}})},
       {"river across", river(70)},
       {"river at 25 degrees", river(25)}};
   for (const double degrees : {90.0, 60.0, 40.0, 25.0, 15.0})
@@ -232,10 +243,12 @@ TEST(Faces, ThatCannotBeMadeAreRefusedWithPlaceAndReason) {
   well.points.push_back({4, 2});
   expect_refusal(well, "at (4, 2)");
   expect_refusal(with_faces({{{0, 0}, {5, 3}}}), "corner of the boundary");
-  Outline bend = plate();
-  add_line(bend, {{1, 2}, {5, 3}, {9, 2}}, false, kRiver);
-  add_faces(bend, {{5, 3}, {5, 5}});
+  Outline bend = border();
+  bend.points.push_back({8, 3});
+  for (OutlineSegment& s : bend.segments) s.as = LineKind::edges;
+  bend.segments.push_back({{6, 7}, kRiver, LineKind::faces});
   expect_refusal(bend, "where that bends");
+  expect_refusal(with_faces({{{2, 2}, {8, 2}}, {{2, 2}, {7, 2.01}}}), "at an angle of 0.11 degrees");
   MesherOptions few = options_for_faces();
   few.points = MeshPoints::few;
   expect_refusal(crossing(60), "few points", few);
