@@ -233,8 +233,7 @@ def as_geojson(net):
 
 def judged(net, mesh):
     """What is wrong with a mesh, or nothing."""
-    points, weights, triangles = faces.read_vtu(mesh)
-    found = faces.judge(points, weights, triangles, expected_segments(net))
+    found = faces.judge(*faces.read_vtu(mesh), expected_segments(net))
     wrong = []
     if abs(found["length"]) > 1e-9:
         wrong.append(f"length off by {found['length']:.1e}")
