@@ -106,11 +106,12 @@ struct DecComplex {
 struct DecSummary {
   std::size_t vertices = 0, edges = 0, triangles = 0, boundary_edges = 0;
   std::size_t negative_star0 = 0;
-  std::size_t negative_star1 = 0, zero_star1 = 0;  ///< Interior edges, exact: not regular; cocircular
-  std::size_t negative_boundary_star1 = 0;         ///< Boundary edges with the orthocenter outside the domain, exact
-  std::size_t not_well_centered = 0;               ///< Number of such triangles, exact
-  double area = 0;                                 ///< Area of the domain
-  double star0_sum = 0;                            ///< Sum of ★0: the area, except for rounding
+  /// Interior edges, exact: not regular; cocircular. Edges inside polygons around ends of faces are neither.
+  std::size_t negative_star1 = 0, zero_star1 = 0;
+  std::size_t negative_boundary_star1 = 0;  ///< Boundary edges with the orthocenter outside the domain, exact
+  std::size_t not_well_centered = 0;        ///< Number of such triangles, exact
+  double area = 0;                          ///< Area of the domain
+  double star0_sum = 0;                     ///< Sum of ★0: the area, except for rounding
   double min_star0 = 0, min_star1 = 0;
   double median_star1 = 0, max_star1 = 0;  ///< Median and maximum of |★1| over all edges
   /// Median and maximum of |transmissibility| over interior edges; the maximum is +∞ if a dual edge has length 0.

@@ -15,6 +15,7 @@
 #include "base/median.hpp"
 #include "dec/accurate.hpp"
 #include "dec/coefficient.hpp"
+#include "dec/joint_polygons.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "temper/detail/geometry.hpp"
@@ -183,6 +184,17 @@ void DecBuilder<Measures>::triangles() {
     measures_.triangle(c_, t);
     c_.star2.push_back(1 / c_.areas[t]);
   }
+  const JointPolygons joints(mesh_);
+  for (const TriangleId t : mesh_.triangles()) {
+    if (joints.whole(t) == t) continue;
+    if (!mesh_.space().is_plane()) {
+      c_.sphere_orthocenters[t] = c_.sphere_orthocenters[joints.whole(t)];
+      continue;
+    }
+    const auto [i, j, k] = mesh_.corners(joints.whole(t));
+    const WeightedPoint here = mesh_.point(mesh_.corners(t)[0]);
+    c_.orthocenters[t] = orthocenter(mesh_.point(i, here), mesh_.point(j, here), mesh_.point(k, here));
+  }
 }
 
 template <class Measures>
@@ -198,7 +210,13 @@ void DecBuilder<Measures>::add_edge(HalfedgeId h) {
   measures_.line(c_, edge);
   if (left.valid()) edge.left = Mesh::triangle(left), edge.left_height = height(left, edge.length);
   if (right.valid()) edge.right = Mesh::triangle(right), edge.right_height = height(right, edge.length);
-  const double ratio = star1(left, right, edge.length);
+  double ratio = 0;
+  if (!mesh_.is_joint(h))
+    ratio = star1(left, right, edge.length);
+  else if (!edge.is_boundary())
+    edge.right_height = -edge.left_height;  // both are to one orthocenter
+  else
+    edge.left_height = edge.right_height = 0;  // the orthocenter is on the edge
   edge.dual_length = ratio * edge.length;
   c_.edges.push_back(edge);
   c_.star1.push_back(ratio);
@@ -320,7 +338,9 @@ double largest_of(const std::vector<double>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
 }
 
-void count_signs(DecSummary& s, const DecComplex& complex) {
+/// Edges inside polygons around ends of faces have no dual, and no sign.
+void count_signs(DecSummary& s, const Mesh& mesh, const DecComplex& complex) {
+  const JointPolygons joints(mesh);
   for (std::size_t i = 0; i < complex.edges.size(); ++i) {
     const EdgeId e(i);
     const double value = complex.star1[e];
@@ -329,7 +349,7 @@ void count_signs(DecSummary& s, const DecComplex& complex) {
       s.negative_boundary_star1 += value < 0 ? 1 : 0;
     } else {
       s.negative_star1 += value < 0 ? 1 : 0;
-      s.zero_star1 += value == 0 ? 1 : 0;
+      s.zero_star1 += value == 0 && !joints.are_one(complex.edges[e].left, complex.edges[e].right) ? 1 : 0;
     }
   }
   for (const double value : complex.star0) s.negative_star0 += value < 0 ? 1 : 0;
@@ -359,7 +379,7 @@ DecSummary summarize(const Mesh& mesh, const DecComplex& complex) {
   s.vertices = mesh.n_vertices();
   s.edges = complex.edges.size();
   s.triangles = mesh.n_triangles();
-  count_signs(s, complex);
+  count_signs(s, mesh, complex);
   find_extremes(s, complex);
   for (const double a : complex.areas) s.area += a;
   for (const double a : complex.star0) s.star0_sum += a;

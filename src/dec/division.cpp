@@ -61,14 +61,14 @@ Vec2 mean_of(const std::vector<PieceCorner>& polygon) {
 }  // namespace
 
 std::vector<CellPiece> TriangleDivider::divide(TriangleId t) {
-  const std::array<VertexId, 3> corners = mesh_.corners(t);
+  t = joints_.whole(t);
+  const std::array own = {Mesh::halfedge(t, 0), Mesh::halfedge(t, 1), Mesh::halfedge(t, 2)};
+  const std::span<const HalfedgeId> sides = joints_.has(t) ? joints_.sides(t) : own;
   chart_ = Chart::of_triangle(mesh_, t);
   whole_.clear();
-  for (int k = 0; k < 3; ++k) {
-    whole_.push_back({chart_.of(mesh_, corners[static_cast<std::size_t>(k)]).position(), {}, Mesh::halfedge(t, k)});
-  }
+  for (const HalfedgeId h : sides) whole_.push_back({chart_.of(mesh_, mesh_.origin(h)).position(), {}, h});
   n_candidates_ = 0;
-  for (const VertexId v : corners) add(v);
+  for (const HalfedgeId h : sides) add(mesh_.origin(h));
   const double negligible = kNegligible * area_of(whole_);
   for (std::size_t i = 0; i < n_candidates_; ++i) {
     if (area_of(candidates_[i].piece) > negligible) expand(i);
@@ -76,9 +76,27 @@ std::vector<CellPiece> TriangleDivider::divide(TriangleId t) {
   std::vector<CellPiece> pieces;
   for (std::size_t i = 0; i < n_candidates_; ++i) {
     const Candidate& c = candidates_[i];
-    if (area_of(c.piece) > negligible) pieces.push_back({c.vertex, t, c.piece});
+    if (area_of(c.piece) <= negligible) continue;
+    pieces.push_back({c.vertex, t, c.piece});
+    if (joints_.has(t)) move_onto_orthocenter(pieces.back());
   }
   return pieces;
+}
+
+/// All bisectors of the corners of a polygon meet at its orthocenter. Where they cross each other or a side near it,
+/// the difference is rounding.
+void TriangleDivider::move_onto_orthocenter(CellPiece& piece) const {
+  constexpr double kNear = 1e-7;  // of the triangle, as in keep_faces()
+  const auto [i, j, k] = mesh_.corners(piece.triangle);
+  const WeightedPoint a = chart_.of(mesh_, i), b = chart_.of(mesh_, j), c = chart_.of(mesh_, k);
+  const Vec2 center = orthocenter(a, b, c);
+  const double near = kNear * std::sqrt(cross(b.position() - a.position(), c.position() - a.position()));
+  for (PieceCorner& corner : piece.corners) {
+    const double distance = length(corner.at - center);
+    if (distance > near) continue;
+    piece.moved = std::max(piece.moved, distance);
+    corner.at = center;
+  }
 }
 
 /// Takes from the others the part that is nearer to v.
@@ -337,17 +355,19 @@ std::vector<LocalPolygon> PieceJoiner::join() {
 }  // namespace
 
 std::vector<LocalPolygon> join_pieces(const Mesh& mesh, const Chart& chart, std::span<const CellPiece> pieces) {
-  double area = 0, joined_area = 0;
+  double area = 0, joined_area = 0, moved = 0, size = 0;
   std::vector<LocalPolygon> apart;
   for (const CellPiece& piece : pieces) {
     const Chart plane = Chart::of_triangle(mesh, piece.triangle);
     LocalPolygon& polygon = apart.emplace_back();
     for (const PieceCorner& c : piece.corners) polygon.push_back(chart.moved(plane, c.at));
     area += area_of(polygon);
+    moved += piece.moved;
+    for (const Vec2 p : polygon) size = std::max(size, length(p - polygon.front()));
   }
   std::vector<LocalPolygon> joined = PieceJoiner(mesh, pieces, apart).join();
   for (const LocalPolygon& polygon : joined) joined_area += area_of(polygon);
-  return std::abs(joined_area - area) <= kSameArea * area ? joined : apart;
+  return std::abs(joined_area - area) <= kSameArea * area + moved * size ? joined : apart;
 }
 
 }  // namespace temper

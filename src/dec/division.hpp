@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "dec/joint_polygons.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -98,11 +99,13 @@ struct PieceCorner {
   HalfedgeId along;  ///< the side is on this side of the triangle
 };
 
-/// The piece of a triangle that a vertex owns: convex, counter-clockwise.
+/// The piece of a triangle, or of a polygon of triangles with one orthocenter, that a vertex owns: convex,
+/// counter-clockwise.
 struct CellPiece {
   VertexId owner;
-  TriangleId triangle;
+  TriangleId triangle;  ///< of a polygon the largest one
   std::vector<PieceCorner> corners;
+  double moved = 0;  ///< the farthest that a corner was moved onto the orthocenter of a polygon of triangles
 };
 
 /// The signed area of a polygon; `at` gives the place of a corner.
@@ -120,8 +123,9 @@ template <class Corner, class At>
 
 class TriangleDivider {
  public:
-  explicit TriangleDivider(const Mesh& mesh) : mesh_(mesh) {}
-  /// The pieces of t, in the order in which their owners were found: its corners first.
+  TriangleDivider(const Mesh& mesh, const JointPolygons& joints) : mesh_(mesh), joints_(joints) {}
+  /// The pieces of t, in the order in which their owners were found: its corners first. If t is part of a polygon with
+  /// one orthocenter, those of the whole polygon.
   [[nodiscard]] std::vector<CellPiece> divide(TriangleId t);
 
  private:
@@ -135,8 +139,10 @@ class TriangleDivider {
   [[nodiscard]] bool wins_anywhere(const Candidate& added, std::size_t others) const;
   void expand(std::size_t i);
   void clip(std::vector<PieceCorner>& piece, const Candidate& owner, const Candidate& other);
+  void move_onto_orthocenter(CellPiece& piece) const;
 
   const Mesh& mesh_;
+  const JointPolygons& joints_;
   std::vector<Candidate> candidates_;  // of the triangle at hand; storage is kept for the next
   std::size_t n_candidates_ = 0;
   std::vector<PieceCorner> whole_;  // the triangle

@@ -13,6 +13,7 @@
 
 #include "dec/accurate.hpp"
 #include "dec/division.hpp"
+#include "dec/joint_polygons.hpp"
 #include "temper/dec.hpp"
 #include "temper/detail/geometry.hpp"
 
@@ -36,14 +37,30 @@ double length_between(const Mesh& mesh, VertexId p, VertexId q) {
   return mesh.space().radius() * arc_length(mesh.weighted_vector(p), mesh.weighted_vector(q));
 }
 
+/// The part of a convex polygon on the left of a line.
+LocalPolygon left_of(const LocalPolygon& polygon, Vec2 from, Vec2 direction) {
+  LocalPolygon part;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
+    const double here = cross(direction, p - from), there = cross(direction, q - from);
+    if (here >= 0) part.push_back(p);
+    if ((here >= 0) != (there >= 0)) part.push_back(p + (here / (here - there)) * (q - p));
+  }
+  return part;
+}
+
 class CellBuilder {
  public:
-  CellBuilder(const Mesh& mesh, const DecComplex& complex) : mesh_(mesh), complex_(complex), divider_(mesh) {}
+  CellBuilder(const Mesh& mesh, const DecComplex& complex)
+      : mesh_(mesh), complex_(complex), joints_(mesh), divider_(mesh, joints_) {}
   PowerCells build();
 
  private:
   void find_plain();
   [[nodiscard]] bool is_plain(TriangleId t) const;
+  [[nodiscard]] bool is_plain_alone(TriangleId t) const;
+  [[nodiscard]] bool has_special_corner(TriangleId t) const;
+  [[nodiscard]] bool is_inside_polygon(HalfedgeId h) const { return mesh_.is_joint(h) && !mesh_.is_boundary(h); }
   void divide_all();
   [[nodiscard]] LocalPolygon orthocenters_around(VertexId v, const Chart& chart) const;
   [[nodiscard]] Vec2 corner(VertexId v, HalfedgeId h, const Chart& chart) const;
@@ -52,6 +69,7 @@ class CellBuilder {
   void emit(VertexId v, const Chart& chart, const LocalPolygon& polygon);
   void find_region(VertexId v, std::span<const CellPiece> pieces);
   void add_part(TriangleId t, double area);
+  void add_parts(const CellPiece& piece);
   [[nodiscard]] double part_in(VertexId v, HalfedgeId h) const;
   void add_faces(const CellPiece& piece);
   void add_plain_faces();
@@ -60,6 +78,7 @@ class CellBuilder {
 
   const Mesh& mesh_;
   const DecComplex& complex_;
+  const JointPolygons joints_;
   TriangleDivider divider_;
   IdVector<VertexId, char> tame_;     // no negative dual edge at it, no d < 0 from it
   IdVector<TriangleId, char> plain_;  // triangles
@@ -77,6 +96,7 @@ void CellBuilder::find_plain() {
   tame_.assign(mesh_.n_vertices(), 1);
   for (std::size_t i = 0; i < complex_.edges.size(); ++i) {
     const DecEdge& e = complex_.edges[EdgeId(i)];
+    if (joints_.are_one(e.left, e.right)) continue;  // inside a polygon
     const bool negative = complex_.star1[EdgeId(i)] < 0;
     if (negative || crossing_sign(mesh_, e.from, e.to) == Sign::negative) tame_[e.from] = 0;
     if (negative || crossing_sign(mesh_, e.to, e.from) == Sign::negative) tame_[e.to] = 0;
@@ -90,19 +110,38 @@ void CellBuilder::find_plain() {
   }
 }
 
+/// The triangles of a polygon are plain together. Regions divide cells along triangles, so it must be in one.
 bool CellBuilder::is_plain(TriangleId t) const {
+  if (!joints_.has(t)) return is_plain_alone(t);
+  return joints_.has_one_region(t) &&
+         std::ranges::all_of(joints_.triangles(t), [&](TriangleId other) { return is_plain_alone(other); });
+}
+
+bool CellBuilder::is_plain_alone(TriangleId t) const {
+  constexpr double kOnSide = 1e-7;  // of a polygon's side, as in keep_faces(): then its orthocenter is there
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k);
+    if (tame_[mesh_.origin(h)] == 0) return false;
+    if (is_inside_polygon(h)) continue;
     const DecEdge& e = complex_.edges[complex_.edge_of_halfedge[h]];
-    if (e.left_height < 0 || e.right_height < 0 || tame_[mesh_.origin(h)] == 0) return false;
+    const bool at_polygon = (e.left.valid() && joints_.has(e.left)) || (e.right.valid() && joints_.has(e.right));
+    const double least = at_polygon ? -kOnSide * e.length : 0;
+    if (e.left_height < least || e.right_height < least) return false;
   }
   return true;
+}
+
+bool CellBuilder::has_special_corner(TriangleId t) const {
+  const auto has = [&](TriangleId triangle) {
+    return std::ranges::any_of(mesh_.corners(triangle), [&](VertexId v) { return special_[v] != 0; });
+  };
+  return joints_.has(t) ? std::ranges::any_of(joints_.triangles(t), has) : has(t);
 }
 
 void CellBuilder::divide_all() {
   std::vector<CellPiece> found;
   for (const TriangleId t : mesh_.triangles()) {
-    if (plain_[t] != 0) continue;
+    if (plain_[t] != 0 || joints_.whole(t) != t) continue;
     for (CellPiece& piece : divider_.divide(t)) {
       add_faces(piece);
       special_[piece.owner] = 1;
@@ -110,9 +149,7 @@ void CellBuilder::divide_all() {
     }
   }
   for (const TriangleId t : mesh_.triangles()) {
-    if (plain_[t] == 0) continue;
-    const auto corners = mesh_.corners(t);
-    if (std::none_of(corners.begin(), corners.end(), [&](VertexId v) { return special_[v] != 0; })) continue;
+    if (plain_[t] == 0 || joints_.whole(t) != t || !has_special_corner(t)) continue;
     for (CellPiece& piece : divider_.divide(t)) {
       if (special_[piece.owner] != 0) found.push_back(std::move(piece));
     }
@@ -124,15 +161,21 @@ void CellBuilder::divide_all() {
 
 /// The weighted midpoint of the edge of h, at v.
 Vec2 CellBuilder::midpoint(VertexId v, HalfedgeId h, const Chart& chart) const {
+  if (mesh_.is_joint(h)) return corner(v, h, chart);  // on the boundary
   if (!mesh_.space().is_plane()) return chart.of(complex_.sphere_midpoints[complex_.edge_of_halfedge[h]]);
   const WeightedPoint p = mesh_.point(v), q = mesh_.point(mesh_.origin(h) == v ? mesh_.target(h) : mesh_.origin(h), p);
   const Vec2 along = q.position() - p.position();
   return (0.5 * accurate::doubled_crossing(p, q) / squared_length(along)) * along;
 }
 
-/// The orthocenter of the triangle of h, out of v.
+/// The orthocenter of the triangle of h, out of v; the same for all triangles of a polygon.
 Vec2 CellBuilder::corner(VertexId v, HalfedgeId h, const Chart& chart) const {
-  if (!mesh_.space().is_plane()) return chart.of(complex_.sphere_orthocenters[Mesh::triangle(h)]);
+  const TriangleId whole = joints_.whole(Mesh::triangle(h));
+  if (!mesh_.space().is_plane()) return chart.of(complex_.sphere_orthocenters[whole]);
+  if (joints_.has(whole)) {
+    const auto [i, j, k] = mesh_.corners(whole);
+    return orthocenter(chart.of(mesh_, i), chart.of(mesh_, j), chart.of(mesh_, k));
+  }
   return orthocenter({0, 0, mesh_.weight(v)}, chart.of(mesh_, mesh_.target(h)), chart.of(mesh_, mesh_.opposite(h)));
 }
 
@@ -209,6 +252,7 @@ void CellBuilder::emit(VertexId v, const Chart& chart, const LocalPolygon& polyg
 double CellBuilder::part_in(VertexId v, HalfedgeId h) const {
   double area = 0;
   for (const HalfedgeId side : {h, Mesh::prev(h)}) {
+    if (is_inside_polygon(side)) continue;  // what one triangle has too much, the other has too little
     const DecEdge& e = complex_.edges[complex_.edge_of_halfedge[side]];
     const double d = e.from == v ? e.crossing : e.length - e.crossing;
     area += mesh_.space().right_triangle_area(d, e.left == Mesh::triangle(h) ? e.left_height : e.right_height);
@@ -224,13 +268,27 @@ void CellBuilder::add_part(TriangleId t, double area) {
     known->area += area;
 }
 
+/// The part of a piece in each triangle of a polygon is on the left of its sides.
+void CellBuilder::add_parts(const CellPiece& piece) {
+  const Chart chart = Chart::of_triangle(mesh_, piece.triangle);
+  LocalPolygon whole;
+  for (const PieceCorner& c : piece.corners) whole.push_back(c.at);
+  if (!joints_.has(piece.triangle) || joints_.has_one_region(piece.triangle))
+    return add_part(piece.triangle, area_in_space(chart, whole));
+  for (const TriangleId t : joints_.triangles(piece.triangle)) {
+    LocalPolygon part = whole;
+    const auto corners = mesh_.corners(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 from = chart.of(mesh_, corners.at(k)).position();
+      part = left_of(part, from, chart.of(mesh_, corners.at((k + 1) % 3)).position() - from);
+    }
+    add_part(t, area_in_space(chart, part));
+  }
+}
+
 void CellBuilder::find_region(VertexId v, std::span<const CellPiece> pieces) {
   parts_.clear();
-  for (const CellPiece& piece : pieces) {
-    LocalPolygon polygon;
-    for (const PieceCorner& c : piece.corners) polygon.push_back(c.at);
-    add_part(piece.triangle, area_in_space(Chart::of_triangle(mesh_, piece.triangle), polygon));
-  }
+  for (const CellPiece& piece : pieces) add_parts(piece);
   const bool is_empty = special_[v] != 0 && pieces.empty();
   for (const HalfedgeId h : mesh_.star(v)) {
     if (is_empty || special_[v] == 0) add_part(Mesh::triangle(h), is_empty ? 0 : part_in(v, h));
@@ -263,6 +321,7 @@ void CellBuilder::add_faces(const CellPiece& piece) {
 void CellBuilder::add_plain_faces() {
   cells_.faces.reserve(cells_.faces.size() + complex_.edges.size());
   for (const DecEdge& edge : complex_.edges) {
+    if (joints_.are_one(edge.left, edge.right)) continue;
     double width = 0;
     if (edge.left.valid() && plain_[edge.left] != 0) width += edge.left_height;
     if (edge.right.valid() && plain_[edge.right] != 0) width += edge.right_height;

@@ -14,6 +14,7 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/generate.hpp"
+#include "temper/mesher.hpp"
 
 namespace temper {
 namespace {
@@ -178,6 +179,73 @@ TEST(CellPolygons, InAPeriodicPlaneCornersAreNearTheirCells) {
       EXPECT_NEAR(cells.polygon_areas[p], shoelace(corners_of(cells, p)), 1e-12) << p;
     const Vec2 period = mesh.space().period();
     EXPECT_NEAR(sum_of(cells.areas), period.x * period.y, 1e-12);
+  }
+}
+
+/// Two regions with a border that becomes faces; and faults that cross, end inside, and end on the boundary.
+Outline faults() {
+  Outline o;
+  o.points = {{0, 0},      {1300, 0},   {2500, 0},  {2500, 1500}, {1200, 1500}, {0, 1500},   {300, 400},
+              {1000, 600}, {400, 1200}, {900, 250}, {2500, 700},  {1800, 400},  {1600, 900}, {2200, 1200}};
+  const auto add = [&](std::initializer_list<std::int32_t> line, LineKind as) {
+    for (const std::int32_t* p = line.begin(); p + 1 != line.end(); ++p) o.segments.push_back({{p[0], p[1]}, 1, as});
+  };
+  add({0, 1, 2, 3, 4, 5, 0}, LineKind::edges);
+  add({1, 4}, LineKind::faces);
+  add({6, 7}, LineKind::faces);
+  add({8, 9}, LineKind::faces);
+  add({10, 11, 12, 13}, LineKind::faces);
+  o.regions = {{{100, 100}, 10, {}}, {{2400, 100}, 20, {}}};
+  return o;
+}
+
+Mesh mesh_of_faults() {
+  MesherOptions options;
+  options.size = 120;
+  options.split_crossings = true;
+  options.optimize->scheme = Scheme::vertex;
+  return mesh_outline(faults(), options)->mesh;
+}
+
+// Duals around ends of faces are zero, but rounding of large coordinates gives them signs.
+TEST(CellPolygons, OnFacesAreTheSameInCoordinatesOfMaps) {
+  const Mesh here = mesh_of_faults();
+  Mesh there = here;
+  for (const VertexId v : there.vertices()) there.set_position(v, there.position(v) + Vec2{500'000.3, 5'800'000.7});
+  const CellPolygons cells = cell_polygons(here, dec_operators(here)),
+                     shifted = cell_polygons(there, dec_operators(there));
+  ASSERT_EQ(cells.n_polygons(), here.n_vertices()) << "each cell is one polygon";
+  EXPECT_EQ(shifted.cells, cells.cells);
+  EXPECT_EQ(shifted.starts, cells.starts);
+  EXPECT_EQ(shifted.corners, cells.corners);
+  EXPECT_EQ(shifted.regions, cells.regions);
+  for (std::size_t i = 0; i < cells.n_cells(); ++i) {
+    EXPECT_NEAR(shifted.areas[i] / cells.areas[i], 1, 1e-9) << i;
+    EXPECT_NEAR(shifted.region_shares[i], cells.region_shares[i], 1e-9) << i;
+  }
+  ASSERT_EQ(shifted.faces.size(), cells.faces.size());
+  for (std::size_t i = 0; i < cells.faces.size(); ++i) {
+    EXPECT_EQ(shifted.faces[i].first, cells.faces[i].first);
+    EXPECT_EQ(shifted.faces[i].second, cells.faces[i].second);
+    EXPECT_NEAR(shifted.faces[i].width, cells.faces[i].width, 1e-7);
+  }
+}
+
+TEST(CellPolygons, AroundEndsOfFacesOnlyTouch) {
+  const Mesh mesh = mesh_of_faults();
+  const DecComplex complex = dec_operators(mesh);
+  std::set<std::array<std::uint32_t, 2>> joined;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_joint(h) || mesh.is_boundary(h)) continue;
+    EXPECT_EQ(complex.star1[complex.edge_of_halfedge[h]], 0);
+    EXPECT_EQ(complex.orthocenters[Mesh::triangle(h)], complex.orthocenters[Mesh::triangle(mesh.twin(h))]);
+    joined.insert({std::min(mesh.origin(h), mesh.target(h)).index, std::max(mesh.origin(h), mesh.target(h)).index});
+  }
+  EXPECT_GT(joined.size(), 20U);
+  EXPECT_EQ(summarize(mesh, complex).zero_star1, 0U) << "these have no sign";
+  for (const CellFace& face : cell_polygons(mesh, complex).faces) {
+    EXPECT_FALSE(joined.contains({face.first, face.second}));
+    EXPECT_GT(face.width, 1e-9) << "no face by rounding";
   }
 }
 
