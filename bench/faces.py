@@ -372,7 +372,7 @@ def row(name, net, path, seconds):
     on_faces, pieces = found["pieces"]
     good = (
         abs(found["length"]) < 1e-9
-        and found["negative"] == found["hidden"] == 0
+        and found["negative"] == found["hidden"] == found["behind"] == 0
         and on_faces == pieces
         and found["least face"] >= 0.1
     )

@@ -38,6 +38,7 @@ class CorridorMaker {
     add_circles();
     for (const std::uint32_t point : sites_.crowded) add_too_long(*nodes_.at(point));
     find_disturbed();
+    find_outside_cells();
     return std::move(laid_);
   }
 
@@ -47,9 +48,8 @@ class CorridorMaker {
     const Vec3 p = laid_.divided.points[point];
     return {p.x, p.y};
   }
-  void add_too_long(const FaceNode& node) {
-    laid_.too_long.push_back({node.point, {node.at.x, node.at.y, 0}, node.size});
-  }
+  static LongPieces pieces_at(const FaceNode& node) { return {node.point, {node.at.x, node.at.y, 0}, node.size}; }
+  void add_too_long(const FaceNode& node) { laid_.too_long.push_back(pieces_at(node)); }
 
   /// Numbers points without the nodes, in their order.
   void leave_out_nodes() {
@@ -243,7 +243,7 @@ class CorridorMaker {
     for (const FaceNode& node : nodes_.nodes) circles.push_back({{node.at.x, node.at.y, 0}, node.radius});
     for (std::size_t i = 0; i < out().points.size(); ++i) {
       const double weight = out().corridors.weights[i];
-      if (weight > 0) circles.push_back({out().points[i], kWider * std::sqrt(weight)});
+      if (weight != 0) circles.push_back({out().points[i], kWider * std::sqrt(std::abs(weight))});
     }
   }
 
@@ -281,6 +281,28 @@ class CorridorMaker {
         if (power >= kMargin * r2 || std::abs(power) < kEqual * r2) return true;
         const FaceNode* const other = node_of_site_[i];
         add_too_long(other != nullptr && other->size > node.size ? *other : node);
+        return true;
+      });
+    }
+  }
+
+  /// A site a is in its own cell if |ab|² > w(b) − w(a) for all other sites b. The one with the larger weight gives
+  /// way: weights fall with the square of the pieces' length.
+  void find_outside_cells() {
+    constexpr double kMost = 0.9;  // of |ab|²: then the face is 0.05 |ab| or more before a
+    const std::vector<double>& weights = out().corridors.weights;
+    if (weights.empty()) return;
+    std::vector<BoundingBox> boxes;
+    for (const Vec3 p : out().points) boxes.push_back({p, p});
+    const BoundingBoxTree tree(boxes);
+    const double least = *std::ranges::min_element(weights);
+    for (std::uint32_t b = 0; b < weights.size(); ++b) {
+      const Vec3 from = out().points[b];
+      tree.visit(BoundingBox{from, from}.grown(std::sqrt((weights[b] - least) / kMost)), [&](std::size_t i) {
+        const auto a = static_cast<std::uint32_t>(i);
+        if (weights[b] - weights[a] <= kMost * squared_length(at(a) - at(b))) return true;
+        const FaceNode* const node = node_of_site_[std::abs(weights[a]) > std::abs(weights[b]) ? a : b];
+        if (node != nullptr) laid_.outside_cells.push_back(pieces_at(*node));
         return true;
       });
     }

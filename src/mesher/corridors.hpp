@@ -30,6 +30,9 @@ struct Laid {
   DividedOutline divided;
   Domain domain;
   std::vector<LongPieces> too_long;  ///< if there are some, the rest is no outline
+  /// Pieces with a site that is not in its own cell: faces of it do not cross the lines between centers. Shorter ones
+  /// may be better.
+  std::vector<LongPieces> outside_cells;
 };
 
 [[nodiscard]] bool has_faces(const Domain& domain);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -183,17 +184,28 @@ class Mesher {
     return divided;
   }
 
-  /// Divides the outline, and lays corridors along faces, shorter until they leave each other room.
+  /// Divides the outline, and lays corridors along faces, shorter until they leave each other room. Then it looks
+  /// whether still shorter ones have more sites in their own cells.
   Expected<Laid> lay() {
-    constexpr int kRounds = 12;  // of pieces 0.7 times as long: where that is not enough, angles are too small
-    for (int round = 0;; ++round) {
+    constexpr int kRounds = 12;   // of pieces 0.7 times as long: where that is not enough, angles are too small
+    constexpr int kForCells = 3;  // rounds without a better result
+    std::optional<std::pair<Laid, Sizing>> best;
+    for (int round = 0, last = kRounds;; ++round) {
       Expected<DividedOutline> divided = resolve();
-      if (!divided) return divided.error();
-      if (!has_faces(domain_)) return Laid{*std::move(divided), {}, {}};
-      Laid laid = lay_corridors(problem_, domain_, *divided);
-      if (laid.too_long.empty()) return laid;
+      if (!divided && !best) return divided.error();
+      if (divided && !has_faces(domain_)) return Laid{*std::move(divided), {}, {}, {}};
+      Laid laid;
+      if (divided) laid = lay_corridors(problem_, domain_, *divided);
+      const bool is_usable = divided && laid.too_long.empty();
+      if (is_usable && laid.outside_cells.empty()) return laid;
+      if (is_usable && (!best || laid.outside_cells.size() < best->first.outside_cells.size()))
+        best = {laid, sizing_}, last = std::min(kRounds, round + kForCells);
+      if (best && (round == last || !divided)) {
+        sizing_ = std::move(best->second);
+        return std::move(best->first);
+      }
       if (round == kRounds) return no_room_for_faces(problem_, domain_, laid.too_long.front().at);
-      make_shorter(laid.too_long, sizing_);
+      make_shorter(laid.too_long.empty() ? laid.outside_cells : laid.too_long, sizing_);
     }
   }
 

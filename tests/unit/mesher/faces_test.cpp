@@ -213,6 +213,22 @@ TEST(Faces, OfABorderLeaveEachCellInOneRegion) {
   }
 }
 
+/// Grids of power cells need each face between its two centers.
+TEST(Faces, LeaveSitesInTheirOwnCells) {
+  for (const auto& [name, outline] : networks()) {
+    const OutlineMesh made = meshed(outline);
+    const Mesh& mesh = made.mesh;
+    int edges = 0;
+    for (const HalfedgeId h : mesh.halfedges()) {
+      const VertexId a = mesh.origin(h), b = mesh.target(h);
+      if (mesh.is_boundary(h) || !mesh.is_frozen(a) || mesh.is_diagonal(h)) continue;
+      ++edges;
+      EXPECT_LT(std::abs(mesh.weight(a) - mesh.weight(b)), squared_length(mesh.position(b) - mesh.position(a))) << name;
+    }
+    EXPECT_GT(edges, 0) << name;
+  }
+}
+
 TEST(Faces, AreTheSameForAnyNumberOfRuns) {
   const Outline outline = crossing(25);
   EXPECT_EQ(meshed(outline).mesh, meshed(outline).mesh);
