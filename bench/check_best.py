@@ -5,7 +5,7 @@
     bench/check_best.py out.vtu best.json [--tolerance 1e-8]
 
 Reads positions and weights from the VTU file, and constraints with multipliers from the certificate. On the sphere the
-certificate has the weights, too, which a mesh rounds to the last bit of the radius. Everything is computed from them with 50 digits, by the formulas of docs/explanation/weights.md. Exit code 0 means that the weights
+certificate has the weights, too, which a mesh rounds to the last bit of the radius. Everything is computed from them with 50 digits, by the formulas of docs/explanation/best-weights.md. Exit code 0 means that the weights
 keep the constraints, and that no other weights have an objective smaller by more than the tolerance times it.
 """
 

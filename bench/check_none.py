@@ -6,7 +6,7 @@
     bench/check_none.py in.vtu why.json
 
 Reads positions and regions from the VTU file, and constraints with multipliers from the certificate. Everything is
-computed from them in fractions, by the formulas of docs/explanation/weights.md. It is for the plane without periods, and
+computed from them in fractions, by the formulas of docs/explanation/certificates.md. It is for the plane without periods, and
 for tetrahedra. Exit code 0 means that no weights keep the constraints with the margin of the certificate.
 """
 

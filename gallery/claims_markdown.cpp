@@ -1,4 +1,4 @@
-// The claims as docs/explanation/paper-claims.md has them: a table, with the reason for each that does not hold.
+// The claims as gallery/claims.md has them: a table, with the reason for each that does not hold.
 #include <string>
 
 #include "results.hpp"

@@ -5,7 +5,7 @@
 
 runs `temper paper reproduce` for figures 11 to 32, which are made by the optimizer, once as each figure has it and once for
 each reading below, into folders of DIR (one that has its gallery.json is not made again). It puts the number of claims
-that hold under each reading into docs/internals/paper-readings.md, and prints which claims fail under which reading.
+that hold under each reading into gallery/readings.md, and prints which claims fail under which reading.
 Claims of a figure that cannot be made under a reading do not hold under it.
 """
 import json
@@ -79,12 +79,12 @@ def main() -> None:
         sys.exit(__doc__)
     program, top = sys.argv[1], pathlib.Path(sys.argv[2])
     held = [claims(program, top / letter, options) for letter, _, options in READINGS]
-    page = pathlib.Path(__file__).resolve().parent.parent / "docs" / "internals" / "paper-readings.md"
+    page = pathlib.Path(__file__).resolve().parent / "readings.md"
     text = page.read_text(encoding="utf-8")
     text, blocks = re.subn(r"(<!-- readings -->\n).*?(<!-- /readings -->)",
                            lambda m: m[1] + "\n" + counts(held) + "\n\n" + m[2], text, flags=re.S)
     if blocks != 1:
-        sys.exit("docs/internals/paper-readings.md must have one place for the readings")
+        sys.exit("gallery/readings.md must have one place for the readings")
     print(counts(held), by_claim(held), sep="\n\n")
     page.write_text(text, encoding="utf-8")
 

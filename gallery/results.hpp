@@ -1,5 +1,5 @@
 // Figures that were made, and the files that tell of them all: index.html for people, gallery.json for programs,
-// claims.md and settings.md for docs/explanation/paper-claims.md.
+// claims.md and settings.md for gallery/claims.md.
 //
 // None holds a date, a duration or a path: the same pages give the same bytes.
 #pragma once

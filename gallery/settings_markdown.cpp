@@ -1,4 +1,4 @@
-// The table of docs/internals/paper-readings.md: a row for each figure that runs the optimizer.
+// The table of gallery/readings.md: a row for each figure that runs the optimizer.
 #include <string>
 
 #include "reading.hpp"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes all figures of the paper with full effort, tests every claim, and compares docs/explanation/paper-claims.md and
-# docs/internals/paper-readings.md with what was found: one minute after the build. scripts/release.sh runs it.
+# Makes all figures of the paper with full effort, tests every claim, and compares gallery/claims.md and
+# gallery/readings.md with what was found: one minute after the build. scripts/release.sh runs it.
 # scripts/test.sh tests the same claims with fewer samples and shorter runs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

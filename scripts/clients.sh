@@ -6,7 +6,7 @@
 #   scripts/clients.sh                       all pages
 #   scripts/clients.sh fipy landlab          these
 #   scripts/clients.sh --plugins             only the plugins in their hosts: QGIS, ParaView, and those of tests/python/test_hosts.py
-#   scripts/clients.sh --write               puts numbers and pictures into the pages, and the table into docs/howto/README.md
+#   scripts/clients.sh --write               puts numbers and pictures into the pages, and the table into docs/explanation/measured.md
 #   scripts/clients.sh --from DIR …          also installs a client that the index lacks, from its sources in DIR (PorePy, PyDEC,
 #                                            MODFLOW 6)
 #

@@ -26,7 +26,7 @@ REPETITIONS = [
     ("web/package-lock.json", r'^    "npm": \{\n      "name": "temper-mesh",\n      "version": "([^"]+)"'),
     ("include/temper/detail/version.hpp", r'^/// Returns "([^"]+)"'),
     ("docs/howto/install.md", r"libtemper(\d+\.\d+)_"),
-    ("docs/howto/install.md", r"find_package\(temper (\d+\.\d+) "),
+    ("docs/howto/cpp.md", r"find_package\(temper (\d+\.\d+) "),
     ("tests/consumer/find_package/CMakeLists.txt", r"find_package\(temper (\d+\.\d+) "),
 ]
 

@@ -7,7 +7,7 @@ import temper
 
 
 def variants(mesh, target, keep=()):
-    """The mesh, and copies after `optimize` with the options of each column of the table in docs/howto/README.md."""
+    """The mesh, and copies after `optimize` with the options of each column of the table in docs/explanation/measured.md."""
     columns = {
         "energy": {"options": {"objective": "energy"}},
         "default": {},

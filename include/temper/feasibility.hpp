@@ -14,8 +14,8 @@
 // temper/detail/connectivity.hpp searches over connectivities.
 //
 // On the sphere these conditions are linear in σ = R/|P|. A common factor of all σ changes nothing
-// (docs/explanation/weights.md). There h/ℓ and d/ℓ are ratios of linear functions of σ. They have the signs of h and d,
-// and differ from the values along arcs by a relative error of order (ℓ/R)².
+// (docs/explanation/best-weights.md). There h/ℓ and d/ℓ are ratios of linear functions of σ. They have the signs of h
+// and d, and differ from the values along arcs by a relative error of order (ℓ/R)².
 #pragma once
 
 #include <cstddef>

@@ -42,7 +42,7 @@ def read_certificate(text: str, part: str) -> dict[str, Any]:
 @dataclasses.dataclass(frozen=True)
 class Certificate(Record):
     """A proof that no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum is a contradiction. The
-    polynomials are in ``temper/feasibility.hpp`` and docs/explanation/weights.md."""
+    polynomials are in ``temper/feasibility.hpp`` and docs/explanation/certificates.md."""
 
     margin: float
     """Refuted margin: no weights keep the constraints with more than this margin."""

@@ -281,7 +281,7 @@ class Lemma(Record):
 
 @dataclasses.dataclass(frozen=True)
 class ConnectivityProof(Record):
-    """A proof that no connectivity has weights. The last lemma needs no edges. docs/explanation/weights.md has the
+    """A proof that no connectivity has weights. The last lemma needs no edges. docs/explanation/connectivities.md has the
     reasons."""
 
     constraints: Constraints

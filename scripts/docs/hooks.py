@@ -21,6 +21,7 @@ import cpp_reference  # noqa: E402
 # Pages of the repository outside of docs/, and where they are in the site.
 ELSEWHERE = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md",
              "web/npm/README.md": "npm.md"}  # fmt: skip
+NOT_SEARCHED = ("internals/", "repository/", "source/")
 LANGUAGES = {".py": "python", ".cpp": "cpp", ".hpp": "cpp", ".sh": "sh", ".json": "json", ".cff": "yaml", ".txt": "text"}
 LINK = re.compile(r"(\]\(\s*)([^()\s#]*)(#[^()\s]*)?(\s*\))")
 CODE = re.compile(r"`[^`\n]+`")
@@ -148,9 +149,9 @@ def on_config(config):
     generated["gallery.md"] = gallery_page(folder_of("TEMPER_GALLERY"))
     generated["playground.md"] = playground_page(folder_of("TEMPER_PLAYGROUND"))
     reference = next(entry for entry in config["nav"] if "Reference" in entry)
-    reference["Reference"] += [
-        {"Python, every name": [{title: f"python-reference/{name}"} for name, title, _ in python]},
-        {"C++, every name": [{name: f"cpp/{name}.md"} for name in cpp]},
+    reference["Reference"][:0] = [
+        {"Python API": [{title: f"python-reference/{name}"} for name, title, _ in python]},
+        {"C++ API": [{name: f"cpp/{name}.md"} for name in cpp]},
     ]
     return config
 
@@ -176,6 +177,8 @@ def on_files(files, config):
 
 
 def on_page_markdown(markdown, page, config, files):
+    if page.file.src_uri.startswith(NOT_SEARCHED):
+        page.meta["search"] = {"exclude": True}
     origin = repository_place(page.file.src_uri)
     if origin is None:
         return markdown

@@ -14,6 +14,8 @@ docs/howto/CLIENT.md in the table says. Exit 1 and one line a mistake: file:line
 
 import argparse
 import concurrent.futures
+import contextlib
+import datetime
 import functools
 import importlib.metadata
 import io
@@ -26,6 +28,7 @@ import sys
 import tempfile
 import textwrap
 import time
+import warnings
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -35,7 +38,7 @@ from blocks import blocks_in, blocks_of, lacking, runs  # noqa: E402
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 NUMBERS = ("README.md", "docs/tutorial/", "docs/howto/", "docs/explanation/")  # where numbers of prose are looked up
 NOT_RUN = ("docs/internals/",)  # commands of developers
-WRONG_OPTIONS = ("docs/reference/cli/mistakes.md",)  # a test of the program runs them
+MEASURED = "docs/explanation/measured.md"  # has the table of results
 # Pictures that no page can make, and what makes them.
 DRAWN_ELSEWHERE = {
     **{f"few-points-{i}.svg": "bench/cgshop.py, and `temper draw --before`: the outlines are not in the repository" for i in (1, 2, 3)},
@@ -46,8 +49,9 @@ DRAWN_ELSEWHERE = {
 COLUMNS = ("before", "energy", "default", "accuracy", "for")  # of `results`, which a benchmark leaves
 HEAD = ["page", "client", "measured", "before", "energy", "`optimize`", "accuracy", "`--for`"]
 TABLE = re.compile(r"(?<=<!-- written by scripts/clients.sh --write -->\n)(?:\|.*\n)*(?=<!-- end -->)")
+LAST_RUN = re.compile(r"(?<=<!-- last run -->\n).*\n")  # of a page's blocks that scripts/clients.sh alone runs
 DISTRIBUTIONS = {"skfem": "scikit-fem"}  # of modules with other names
-ORDINARY = {"matplotlib", "meshio"}  # other versions draw otherwise: the run without --clients compares what needs no more than these
+ORDINARY = {"matplotlib", "meshio", "temper-netcdf"}  # other versions draw otherwise: the run without --clients compares what needs no more than these
 TOLERANCE, ROUNDING = 0.02, 1e-9  # the last digits of clients depend on BLAS and the machine
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 # Durations, versions and paths are compared by shape.
@@ -61,27 +65,67 @@ VERB_PAGE = """# temper {0}
 
 ## All options
 
-<!-- temper {0} --help-all -->
+<!-- options of temper {0} -->
 ```text
 ```
 """
 
 
+def helped(*words):
+    return subprocess.run(["temper", *words], check=True, capture_output=True, text=True).stdout
+
+
 def summary(verb):
-    """What the verb does in one sentence, its usage, and three examples."""
-    said = subprocess.run(f"temper {verb} --help", shell=True, check=True, capture_output=True, text=True).stdout
-    sentence = re.match(r".*?\.(?=\s)", " ".join(said.split("\n\n")[0].split()) + " ")
-    usage = re.search(r"^Usage:.*?(?=\n\n)", said, re.M | re.S)
-    examples = re.search(r"^Examples:\n(.*?)(?=\n\n|\Z)", said, re.M | re.S)
-    commands = re.findall(r"^  temper .*(?:\n    .*)*", examples[1] if examples else "", re.M)[:3]
-    parts = [sentence and textwrap.fill(sentence[0], 100), usage and usage[0], commands and "\n".join(["Examples:", *commands])]
-    return "\n\n".join(filter(None, parts)) + "\n"
+    """What the verb does, its usage, and examples."""
+    said = helped(*verb.split(), "--help-all") + "\n"
+    parts = [said.partition("\n\nUsage:")[0]]
+    parts += re.findall(r"^(?:Usage:.*?|Examples:\n.*?)(?=\n\n)", said, re.M | re.S)
+    return "\n\n".join(parts) + "\n"
+
+
+def rows_of(verb):
+    """The sections of the help: title -> rows, each with all its lines."""
+    found = {}
+    for section in re.split(r"\n\n(?=\S[^\n]*:\n)", helped(*verb.split(), "--help-all").rstrip()):
+        title, _, rows = section.partition("\n")
+        if title.endswith(":") and not title.startswith(("Usage", "Examples", "Exit codes")):
+            found.setdefault(title, []).extend(re.split(r"\n+(?=  \S)", rows))
+    return found
+
+
+def set_by_flag(row, sections):
+    """Whether the row is NAME=VALUE for --set, and there is a flag --NAME, too."""
+    name = re.match(r"  ([a-z]\w*)=", row)
+    flag = name and "--" + name[1].replace("_", "-") + " "
+    return bool(flag) and any(each.lstrip().startswith(flag) for rows in sections.values() for each in rows)
+
+
+def options(whose):
+    """Options of a verb, or those with the same words in the help of three verbs or more."""
+    verbs = re.findall(r"^  ([a-z]+)  ", re.search(r"^Verbs:\n(.*?)(?:\n\n|\Z)", helped("--help"), re.M | re.S)[1], re.M)
+    every = [row for verb in verbs if verb != "example" for rows in rows_of(verb).values() for row in rows]
+    common = [row for row in dict.fromkeys(every) if every.count(row) > 2 and "--" in row]
+    if whose == "several verbs":
+        return "\n".join(common) + "\n"
+    text, also = [], []
+    for title, rows in rows_of(whose.removeprefix("temper ")).items():
+        own = [row for row in rows if row not in common or "--for TARGET" in row and whose == "temper optimize"]
+        also += [re.search(r"--[a-z][\w-]*", row)[0] for row in rows if row not in own]
+        own = [row for row in own if not set_by_flag(row, rows_of(whose.removeprefix("temper ")))]
+        text += ["\n".join([title, *own])] if own else []
+    text += [textwrap.fill("Options of several verbs: " + ", ".join(also) + ".", 100, break_on_hyphens=False)] if also else []
+    return "\n\n".join(text) + "\n"
 
 
 def run_blocks(page, result):
     """Runs the page here, in the current folder, and writes to the file `result` what became of it."""
     namespace, outputs, lacks, error = {"__name__": "__page__", "__file__": page}, [], [], None
     drawn = {}  # file -> what the block that wrote it first needs
+    if page.endswith(".md") and any(block.kind == "python" and runs(block) for block in blocks_in(pathlib.Path(page))):
+        with contextlib.suppress(ImportError):
+            from temper import TemperWarning
+
+            warnings.filterwarnings("error", category=TemperWarning)  # a reader would see it
     sys.path.insert(0, str(pathlib.Path(page).parent))  # as Python does for a script
     for block in blocks_in(pathlib.Path(page)):
         missing = lacking(block) if runs(block) and not error else []
@@ -95,8 +139,8 @@ def run_blocks(page, result):
         try:
             if block.kind == "python":
                 exec(compile(block.text, page, "exec"), namespace)
-            elif block.kind == "summary":
-                printed.write(summary(block.text))
+            elif block.kind in ("summary", "options"):
+                printed.write({"summary": summary, "options": options}[block.kind](block.text))
             else:
                 run = subprocess.run(["bash", "-euo", "pipefail", "-c", block.text], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                      stderr=subprocess.STDOUT, text=True, errors="replace")  # fmt: skip
@@ -154,6 +198,7 @@ def version(tool):
     """Of a module, or of mf6; nothing for what is temper's own."""
     if tool == "program mf6":
         return "mf6 " + subprocess.run(["mf6", "--version"], capture_output=True, text=True).stdout.split()[1]
+    tool = tool.rpartition(" ")[2]
     name = DISTRIBUTIONS.get(tool, tool)
     try:
         return f"{name} {importlib.metadata.version(name)}"
@@ -193,6 +238,26 @@ class Page:
     def skipped(self):
         return list(dict.fromkeys(name for names in self.lacks for name in names))
 
+    def clients(self):
+        """What scripts/clients.sh installs for the page."""
+        needs = dict.fromkeys(name for block in self.blocks for name in block.needs)
+        return [name for name in needs if name not in ORDINARY] if self.path.suffix == ".md" else []
+
+    def last_run(self, write):
+        """What is wrong with the line that says when the clients of the page last ran; or writes it."""
+        if not self.clients():
+            return
+        said = LAST_RUN.search(self.text)
+        if write and said and not self.error and not self.skipped():
+            versions = ", ".join(f"`{each}`" for each in dict.fromkeys(filter(None, map(version, self.clients()))))
+            line = f"`scripts/clients.sh` last ran this page on {datetime.date.today()}, with {versions}.\n"
+            self.text = self.text[: said.start()] + line + self.text[said.end() :]
+            self.path.write_text(self.text, encoding="utf-8")
+            self.blocks = blocks_of(self.text)
+        elif not said or not re.search(r"\d{4}-\d\d-\d\d", said[0]):
+            yield 1, ("does not say when its blocks with clients last ran: put <!-- last run --> and an empty line at its end, and run "
+                      "scripts/clients.sh --write")
+
     def compare(self, write):
         """What is wrong with the blocks; or writes what they print into the page."""
         found = [(block.line, block.problem) for block in self.blocks if block.problem]
@@ -221,7 +286,7 @@ class Page:
 
     def row(self):
         """Of the table of clients."""
-        first = f"[{self.howto.read_text(encoding='utf-8').splitlines()[0].removeprefix('# ')}]({self.howto.name})"
+        first = f"[{self.howto.read_text(encoding='utf-8').splitlines()[0].removeprefix('# ')}](../howto/{self.howto.name})"
         last = next(block for block in reversed(self.blocks) if block.needs)
         cells = (self.results.get(column) for column in COLUMNS)
         cells = (0 if number and abs(number) < ROUNDING else number for number in cells)
@@ -254,7 +319,7 @@ class Check:
         self.drawn_with_clients = set(re.findall(r'"([\w-]+\.(?:svg|png))"', scripts))
         paths += benchmarks if clients else []
         self.pages = [Page(path, root) for path in paths if path.exists()]
-        self.table = (root / "docs/howto/README.md").read_text(encoding="utf-8") if (root / "docs/howto/README.md").exists() else ""
+        self.table = (root / MEASURED).read_text(encoding="utf-8") if (root / MEASURED).exists() else ""
 
     def say(self, page, line, why):
         self.problems.append((page, line, " ".join(why.split())))
@@ -302,12 +367,12 @@ class Check:
         for page in chosen:
             if page.name == "docs/reference/names.md":
                 self.compare_names(page)
-            for line, why in page.compare(self.write):
+            for line, why in [*page.compare(self.write), *page.last_run(self.write and self.clients)]:
                 self.say(page.name, line, why)
             commands = [(block.line, block.text) for block in page.blocks if block.kind == "sh"]
-            found = list(prose.wrong_options(page.text, commands, self.options, self.settings)) if page.name not in WRONG_OPTIONS else []
+            found = list(prose.wrong_options(page.text, commands, self.options, self.settings))
             if page.name.startswith(NUMBERS):
-                row = re.findall(rf"^\| \[[^]]*\]\({page.path.name}\).*", self.table, re.M)  # a page may say what its benchmark measured
+                row = re.findall(rf"^\| \[[^]]*\]\((?:\.\./howto/)?{page.path.name}\).*", self.table, re.M)  # a page may say what its benchmark measured
                 found += prose.wrong_numbers(page.text, page.known_numbers() | prose.numbers_in("\n".join(row)))
             for line, why in found:
                 self.say(page.name, line, why)
@@ -320,7 +385,8 @@ class Check:
                 file = self.root / "docs/figures" / name
                 made = [other.pictures[name] for other in [page, *chosen] if name in other.pictures]
                 elsewhere = name in DRAWN_ELSEWHERE or name in self.drawn_with_clients
-                if not made and not elsewhere and len(chosen) == len(self.pages) and not page.skipped() and not page.error:
+                ran = not any(other.skipped() or other.error for other in chosen if name in other.figures)
+                if not made and not elsewhere and len(chosen) == len(self.pages) and ran:
                     self.say(page.name, line, f"no page writes {name}: add the command that makes it, or a line to DRAWN_ELSEWHERE")
                 elif made and name in DRAWN_ELSEWHERE:
                     self.say(page.name, line, f"a page writes {name}: remove its line in DRAWN_ELSEWHERE")
@@ -348,8 +414,8 @@ class Check:
 
     def compare_table(self, chosen):
         """Compares the rows of pages that were run; all others stay what they are."""
-        readme = self.root / "docs/howto/README.md"
-        text = readme.read_text(encoding="utf-8")
+        measured = self.root / MEASURED
+        text = measured.read_text(encoding="utf-8")
         table = TABLE.search(text)
         if not table:
             return
@@ -362,16 +428,18 @@ class Check:
             link = row[0].partition("](")[2]
             difference = differing("\n".join(rows.get(link, [])), "\n".join(row), tolerant=True)
             if difference and not self.write:
-                self.say(readme.relative_to(self.root).as_posix(), 1, f"row of {page.name}: {difference}")
+                self.say(MEASURED, 1, f"row of {page.name}: {difference}")
             rows[link] = row
         made = "\n".join("| " + " | ".join(row) + " |" for row in [HEAD, ["-"] * len(HEAD), *rows.values()]) + "\n"
         if self.write:
             self.table = text[: table.start()] + made + text[table.end() :]
-            readme.write_text(self.table, encoding="utf-8")
+            measured.write_text(self.table, encoding="utf-8")
 
     def report(self, chosen, start):
         for page, line, why in sorted(self.problems):
             print(f"{page}:{line}: {why}")
+        for page in (page for page in chosen if page.skipped()):
+            print(f"skipped: {page.name}: {sum(map(bool, page.lacks))} of {len(page.blocks)} blocks need {', '.join(page.skipped())}")
         slowest = max(chosen, key=lambda page: page.seconds)
         blocks = [(block, printed, lacks) for page in chosen for block, printed, lacks in zip(page.blocks, page.outputs, page.lacks)]
         ran = sum(printed is not None for _, printed, _ in blocks)
@@ -429,7 +497,7 @@ def self_test():
         "a removed option for --set": ("page", "star=1", "stra=1", 3, "--set stra"),
         "text that nothing prints": ("page", "```text", "so:\n\n```text", 14, "text that no command prints"),
         "a program that is not run": ("page", "```sh", "```console", 7, "a block of console is not run"),
-        "a page of a verb without its mark": ("verb", "<!-- temper check --help-all -->\n", "", 1, "no block with the mark"),
+        "a page of a verb without its mark": ("verb", "<!-- options of temper check -->\n", "", 1, "no block with the mark"),
         "stale help": ("verb", "as JSON", "as XML", 13, "as XML"),
         "a number that no benchmark measures": ("page", "and 3.77", "and 3.78", 3, "3.78: no command"),
         "a stale row of the table": ("table", "| 3.77 |", "| 4.77 |", 1, "the page has '4.77'"),
@@ -444,7 +512,7 @@ def self_test():
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder).resolve()
         program = root / "build/apps/temper/temper"
-        files = {"page": "docs/howto/a.md", "table": "docs/howto/README.md", "verb": "docs/reference/cli/check.md",
+        files = {"page": "docs/howto/a.md", "table": MEASURED, "verb": "docs/reference/cli/check.md",
                  "figure": "docs/figures/a.svg", "benchmark": "examples/benchmarks/with_a.py"}  # fmt: skip
         files = {name: root / file for name, file in files.items()}
         for file in (program, root / "examples/x", *files.values()):
@@ -461,7 +529,7 @@ def self_test():
             files[name].write_text(text)
         assert not found(write=True) and not found(), found()
         good = {name: file.read_text() for name, file in files.items()}
-        assert "Judges a mesh.\n\nUsage: temper check IN\n" in good["verb"], good["verb"]
+        assert "Judges a mesh. Then ends.\n\nUsage: temper check IN\n" in good["verb"], good["verb"]
         for what, (name, old, new, line, why) in mistakes.items():
             assert old in good[name], what
             files[name].write_text(good[name].replace(old, new, 1))

@@ -4,7 +4,7 @@
 //   - for each vertex X that sees the whole edge pq: the height of pqX over pq is positive, be it a triangle or not
 //
 // And without any edge: for all vertices that see each other, |w_p − w_q| < |pq|², the crossings of pq. These and the
-// heights hold because the lifted function is convex along segments in the domain (docs/explanation/weights.md).
+// heights hold because the lifted function is convex along segments in the domain (docs/explanation/connectivities.md).
 // For heights alone, rows of crossings are left out.
 #pragma once
 

@@ -1,8 +1,8 @@
-// Every claim of the paper is a test: it holds, or it is known not to; and docs/explanation/paper-claims.md says what
+// Every claim of the paper is a test: it holds, or it is known not to; and gallery/claims.md says what
 // was found.
 //
 // The pages are made once for all tests of this process. The program `claims` takes fewer samples and shorter runs,
-// which give other numbers than docs/explanation/paper-claims.md has. Built with TEMPER_WHOLE_CLAIMS, it makes them in
+// which give other numbers than gallery/claims.md has. Built with TEMPER_WHOLE_CLAIMS, it makes them in
 // full, and compares the page.
 #include <gtest/gtest.h>
 
@@ -202,8 +202,8 @@ TEST(Gallery, TheDocsHaveEveryRowAsItIsFound) {
   std::vector<Result> results;
   for (const Figure& figure : figures()) results.push_back({figure, page(figure)});
   const std::tuple<std::string, std::string, std::string> pages[] = {
-      {"/docs/explanation/paper-claims.md", "claims", claims_markdown(results)},
-      {"/docs/internals/paper-readings.md", "settings", settings_markdown(results)}};
+      {"/gallery/claims.md", "claims", claims_markdown(results)},
+      {"/gallery/readings.md", "settings", settings_markdown(results)}};
   for (const auto& [where, name, text] : pages) {
     const std::vector<std::string> found = lines_of(text), docs = documented(where, name);
     EXPECT_TRUE(found == docs) << "Found, and not in " << where << ":\n"

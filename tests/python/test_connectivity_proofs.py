@@ -1,4 +1,4 @@
-"""Proofs over connectivities, checked once more: in rational arithmetic, from the statements of docs/explanation/weights.md,
+"""Proofs over connectivities, checked once more: in rational arithmetic, from the statements of docs/explanation/connectivities.md,
 without temper's code."""
 
 import itertools

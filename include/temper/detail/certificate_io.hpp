@@ -8,7 +8,7 @@
 // The edge of a crossing is directed: d is from its first point. A dual has the fields of a height, and "across": the
 // corner on the other side of the edge. Of tetrahedra, a height_over_face and a dual_of_face have "tetrahedron", "face"
 // and "across" instead; the face turns counter-clockwise as seen from the fourth corner. Without "constraints" a file
-// is of well_centered. docs/explanation/weights.md has the expressions that the multipliers multiply.
+// is of well_centered. docs/explanation/certificates.md has the expressions that the multipliers multiply.
 //
 // A proof over connectivities has lemmas instead of "margin" and "terms":
 //

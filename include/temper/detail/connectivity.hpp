@@ -61,7 +61,7 @@ struct ConnectivityProof {
   ///   - `terms`: a sum of constraints that is a contradiction, as in a certificate. A height over the edge pq of pqr
   ///     counts if pq is an edge of the lemma, of the boundary or constrained, and pqr lies in the domain. A crossing
   ///     of pq counts if the segment lies in the domain. Neither pqr nor pq have to be part of a triangulation: the
-  ///     inequality holds by convexity (docs/explanation/weights.md).
+  ///     inequality holds by convexity (docs/explanation/connectivities.md).
   ///   - `side`, `cases`: the triangle to the left of the edge `side` has one of several corners as its apex. For each
   ///     possible apex X, either a new edge crosses an edge of the lemma, or a case names an earlier lemma. That lemma
   ///     has no edges except those of this one and the two edges from `side` to X.

@@ -1,5 +1,5 @@
 // Words of a user that set several options: the target of a mesh, the effort of a run, the parts of a mesh to keep.
-// docs/howto/choose.md has the measurements behind them.
+// docs/explanation/measured.md has the measurements behind them.
 #include <algorithm>
 #include <array>
 #include <string>

@@ -135,11 +135,11 @@ TEST_F(Usage, TheFirstHelpOfOptimizeHasFourteenOptionsAndFortyLines) {
   }
 }
 
-// The table of docs/reference/cli/mistakes.md: | `command` | code | `message` |
+// The table of tests/unit/app/mistakes.md: | `command` | code | `message` |
 TEST_F(Usage, TheTableOfMistakesInTheDocsIsTrue) {
   make_input();
   write("empty.msh", "");
-  std::istringstream docs(read(TEMPER_SOURCE_DIR "/docs/reference/cli/mistakes.md"));
+  std::istringstream docs(read(TEMPER_SOURCE_DIR "/tests/unit/app/mistakes.md"));
   int rows = 0;
   for (std::string line; std::getline(docs, line);) {
     if (line.rfind("| `temper", 0) != 0) continue;

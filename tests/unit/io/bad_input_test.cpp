@@ -1,5 +1,5 @@
 // The messages for files that are wrong: each names the file, the line, the element in the file's own numbers, what was
-// expected and what was found. docs/reference/formats/messages.md shows these messages; the last test keeps it so.
+// expected and what was found. tests/unit/io/messages.md shows these messages; the last test keeps it so.
 #include "support.hpp"
 
 namespace temper::io {
@@ -165,11 +165,11 @@ TEST_F(FileTest, MissingFilesAndDirectoriesAreNamed) {
 }
 
 TEST_F(FileTest, TheMessagesInTheDocumentationAreThoseThatUsersSee) {
-  const std::string docs = slurp(TEMPER_SOURCE_DIR "/docs/reference/formats/messages.md");
+  const std::string docs = slurp(TEMPER_SOURCE_DIR "/tests/unit/io/messages.md");
   int checked = 0;
   for (const Bad& bad : bad_files()) {
     EXPECT_NE(docs.find(bad.message), std::string::npos)
-        << bad.name << " is not in docs/reference/formats/messages.md: " << bad.message;
+        << bad.name << " is not in tests/unit/io/messages.md: " << bad.message;
     ++checked;
   }
   EXPECT_GT(checked, 20);
