@@ -5,10 +5,10 @@ the rows below, where the three differ.
 """
 
 import inspect
-import itertools
 import pathlib
 import re
 import subprocess
+import textwrap
 
 import temper
 from temper._options import TABLE
@@ -83,18 +83,14 @@ def members_of(struct):
 
 
 def options_table(program):
-    """Options of optimize() that have another name in C++, or a flag of the program."""
-    given = options_of(program, "optimize")
-    lines = []
-    for group, rows in itertools.groupby(TABLE, lambda row: row["group"]):
-        found = []
-        for name in (row["name"] for row in rows):
-            flag, member = "--" + name.replace("_", "-"), member_for(name)
-            if flag in given or member != name:
-                found.append(f"| `{flag if flag in given else '--set ' + name + '=…'}` | `{name}` | `{member}` |")
-        if found:
-            lines += ["", f"**{group}**", "", "| program | Python | C++: `OptimizeOptions` |", "|-|-|-|", *found]
-    return lines
+    """Options of optimize() that have another name in C++: the struct, and its members by their names in Python."""
+    structs = {}
+    for name in (row["name"] for row in TABLE):
+        struct, _, member = member_for(name).rpartition(".")
+        if struct:
+            structs.setdefault(struct, []).append(f"`{name}`" if member == name else f"`{name}` (`{member}`)")
+    return ["| member of `OptimizeOptions` | options in it, and their names there if they differ |", "|-|-|",
+            *(f"| `{struct}` | {', '.join(names)} |" for struct, names in structs.items())]  # fmt: skip
 
 
 def member_for(name):
@@ -128,14 +124,16 @@ def other_options(program):
                 name = plain.removeprefix("no_")
                 python = f"`{keywords[name]}({name}=False)`"
             rows.setdefault((flag, python, cpp), []).append(verb)
-    known = ["| program | verbs | Python | C++, where a name is another |", "|-|-|-|-|"]
+    known = ["| program | verbs | Python | C++, if its name is another |", "|-|-|-|-|"]
     alone = []
     for (flag, python, cpp), verbs in sorted(rows.items()):
+        if re.search(rf"\({flag[2:].replace('-', '_')}=…\)`$", python) and not cpp:
+            continue  # a keyword of the same name
         if python:
-            known.append(f"| `{flag}` | {', '.join(verbs)} | {python} | {cpp} |")
-        else:
-            alone.append(f"| `{flag}` | {', '.join(verbs)} |")
-    return [*known, "", "These options exist in the program alone:", "", "| program | verbs |", "|-|-|", *alone]
+            known.append(f"| `{flag}` | {'several' if len(verbs) > 3 else ', '.join(verbs)} | {python} | {cpp} |")
+        elif not any(flag == other for other, given, _ in rows if given):
+            alone.append(f"`{flag}`")
+    return [*known, "", *textwrap.wrap(f"The program alone has {', '.join(dict.fromkeys(alone))}.", 120, break_on_hyphens=False)]
 
 
 def verbs_table(program):
@@ -153,37 +151,33 @@ def verbs_table(program):
     return lines
 
 
-def measures_table(program):
-    """Keys of --require and of JSON are the fields of Quality, in both languages; some have a short name."""
+def check_measures(program):
+    """Keys of --require and of JSON are the fields of Quality, in both languages."""
     keys = re.search(r"Keys: (.*?) energy\.", re.sub(r"\s+", " ", printed(program, "check", "--help")))[1]
     fields = set(inspect.signature(temper.types.Quality).parameters)
-    each = set(inspect.signature(temper.types.TriangleQuality).parameters)
-    lines = ["| `--require`, JSON, `Quality` | short, for `--require` | of each triangle: VTU, `TriangleQuality` |", "|-|-|-|"]
-    for key, _, short in re.findall(r"(\w+)( \((\w+)\))?,", keys):
-        assert key in fields, key
-        cell = key if key in each else "well_centered" if key == "well_centered_fraction" else ""
-        lines.append(f"| `{key}` | {f'`{short}`' if short else '–'} | {f'`{cell}`' if cell else '–'} |")
-    return lines
+    missing = {key for key, _, _ in re.findall(r"(\w+)( \((\w+)\))?,", keys)} - fields
+    assert not missing, f"Quality lacks {sorted(missing)}"
 
 
-def energies_table():
-    lines = ["| option `energy`, row of `energy.energies()` | C++: `EnergyKind` | formula |", "|-|-|-|"]
+def check_energies():
+    """The energies have the same names in all languages."""
     kinds = re.search(r"enum class EnergyKind \{(.*?)\};", re.sub(r"//[^\n]*", "", (HEADERS / "energy.hpp").read_text(encoding="utf-8")), re.S)[1]
-    for energy, kind in zip(temper.energy.energies(), re.findall(r"\w+", kinds), strict=True):
-        formula = energy.formula.replace("|", "\\|")
-        lines.append(f"| `{energy.name}` | `{kind}` | {formula} |")
-    return lines
+    assert [energy.name for energy in temper.energy.energies()] == re.findall(r"\w+", kinds)
 
 
 def page(program):
     """The text of the page."""
+    check_measures(program)
+    check_energies()
     return "\n".join([
-        "# Names",
+        "# Program, Python, C++ and JSON names side by side",
         "",
         "<!-- written by scripts/docs/pages.py --write, from the tables of the program, the module and the library -->",
         "",
         "A concept has one name. Options of the program have hyphens between words. Names in Python, JavaScript and JSON have",
-        "underscores. Names that are not listed here are the same in Python and C++. JavaScript has the names of Python.",
+        "underscores. Names that are not listed here are the same in Python and C++. JavaScript has the names of Python. Keys of",
+        "`--require` and of JSON are fields of `Quality` ([Measures](limits.md)). Energies have the names of [Signs and",
+        "symbols](symbols.md#energies): `energy.BP.2` for `--require`, `Quality.energy['BP'][2]` in Python.",
         "",
         "## Verbs and functions",
         "",
@@ -192,22 +186,15 @@ def page(program):
         "## Options of `optimize`",
         "",
         "All options have one name: in `--set NAME=VALUE` of the program, in `OptimizeOptions` and `optimize(options={NAME: VALUE})` of",
-        "Python, and in JSON. These have a flag of their own too, or are members of a struct in C++:",
+        "Python, and in JSON. In C++ some are members of a struct:",
+        "",
         *options_table(program),
         "",
         "## Other options",
         "",
+        "Options of the other verbs are keywords of the same name of their functions: `--attempts` of `temper mesh` is",
+        "`mesh_outline(attempts=…)`. These have another name, or a name in C++:",
+        "",
         *other_options(program),
         "",
-        "## Measures",
-        "",
-        *measures_table(program),
-        "",
-        "## Energies",
-        "",
-        "With a star, 0, 1 or 2: `energy.BP.2` for `--require`, `Quality.energy['BP'][2]` in Python.",
-        "",
-        *energies_table(),
-        "",
     ])  # fmt: skip
-
