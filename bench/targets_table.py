@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What each target, effort and part to keep gains and costs: the tables of docs/howto/choose.md, and the results in README.md.
+"""What each target, effort and part to keep gains and costs: tables of docs/explanation/measured.md, and the results in README.md.
 
     bench/targets_table.py TEMPER [--write]
 
@@ -21,7 +21,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGES = ROOT / "docs" / "howto" / "choose.md", ROOT / "README.md"
+PAGES = ROOT / "docs" / "explanation" / "measured.md", ROOT / "README.md"
 PUBLIC = pathlib.Path(os.environ.get("TEMPER_SHARED", ROOT.parent / "shared")) / "meshes"
 # Errors cancel from neighbor to neighbor on the first two.
 EXAMPLES = {"sheared grid": ["sheared-grid"], "ring": ["annulus"], "random points": ["random", "--vertices", 400]}
@@ -90,7 +90,7 @@ class Bench:
 
     def results(self, meshes):
         rows = [[what, f"`{options}`", *(self.row(meshes, each, 1)[column] for each in ("", options))] for what, options, column in RESULTS]
-        return markdown(["sum over the meshes, or mean error over the error on the input", "options", "before", "after"], rows)
+        return markdown(["count, or error (1: as on the input)", "options", "before", "after"], rows)
 
     def regular_table(self):
         meshes, rows = self.examples(), []
