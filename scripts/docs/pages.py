@@ -504,6 +504,9 @@ def self_test():
         "a benchmark that fails": ("benchmark", "3.77", "x", 2, "NameError"),
         "a number that is given for nothing": ("page", "25 is right", "it is right", 5, "remove it"),
         "a wrong expression": ("page", "40 / 12", "12 / 40", 5, "which is 0.3"),
+        "a page with a client that does not say when": (
+            "page", "# A mesh\n", "# A mesh\n\n<!-- runs with: json -->\n```python\n```\n", 1, "last ran"),
+        "an option in the help that the program lacks": ("verb", "--json  as JSON", "--json  as JSON\n  --all  so", 13, "the page has"),
     }
     passed = "## 3.2 In 2023\n\n`11`, [12](a), $13$, 64-bit x86-64, C++20, UTF-16, 2D, Section 5.2, d = 14, 1 − d/ℓ, 19 May 2025, 7.\n"
     assert not list(prose.wrong_numbers(passed, set())), list(prose.wrong_numbers(passed, set()))
