@@ -32,6 +32,8 @@ constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
 // Moves that do not bring errors below the input's must lower them by this part.
 constexpr double kGainOfMoves = 0.2;
+// Steps of weights alone, which go nearly as far as they can.
+constexpr int kStepsOfWeights = 40;
 // The most sweeps for a HOT energy.
 constexpr int kMostHotSweeps = 32;
 // The constraints on weights alone for each criterion.
@@ -177,7 +179,7 @@ class Driver : RepairRun {
     for (Mobility& m : mobility) {
       if (weights_alone) m = m.weighs ? Mobility::weight : Mobility::none;
     }
-    int steps = 0;
+    int steps = weights_alone ? std::max(0, options_.tets.accuracy_steps - kStepsOfWeights) : 0;
     while (descend(lowered, mobility, steps)) {
     }
   }

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "optimize/run/changes.hpp"
-#include "tets/mesh/tables.hpp"
 #include "tets/optimize/local_search.hpp"
 
 namespace temper::tets {
@@ -24,21 +22,6 @@ constexpr std::size_t kRepairWork = 300'000, kRepairWorkPerTet = 40;
 constexpr std::size_t kWorkOfMany = 40'000;
 // Trials in vain of a first pass over all patches: most of those that help are among the first.
 constexpr int kFewTrials = 2;
-// Margins are not worth larger distances between the midpoint of an edge and its weighted midpoint, over its length.
-constexpr double kMostOffset = 1;
-
-double largest_offset(const TetMesh& mesh) {
-  double most = 0;
-  for (const TetId t : mesh.tetrahedra()) {
-    const auto p = mesh.points(t);
-    for (const auto& ends : kEdgeCorners) {
-      const WeightedPoint &a = p[std::size_t(ends[0])], &b = p[std::size_t(ends[1])];
-      most = std::max(most, std::abs(a.w - b.w) / (2 * squared_length(b.position() - a.position())));
-    }
-  }
-  return most;
-}
-
 }  // namespace
 
 RepairRun::RepairRun(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
@@ -75,14 +58,12 @@ bool RepairRun::change_places(const SearchOptions& options) {
 void RepairRun::widen_margins() {
   Draft widest = draft_ = *best_.kept;
   double least = state_of(widest.mesh, kLastGamma, hooks_.executor).energy;
-  const double most_offset = std::max(kMostOffset, largest_offset(widest.mesh));
   SearchOptions options = {.criterion = criterion_, .small_margin = kSmallMargin, .most_cosine = most_cosine_};
   for (std::size_t in_vain = 0; in_vain < kRoundsInVain && may_sweep();) {
     options.rank = in_vain;
     if (!change_places(options) || stopped_early()) break;
     const SweepRecord& now = report.history.back();
-    const bool is_better =
-        now.bad == 0 && now.energy < (1 - kGainOfRound) * least && largest_offset(draft_.mesh) <= most_offset;
+    const bool is_better = now.bad == 0 && now.energy < (1 - kGainOfRound) * least;
     in_vain = is_better ? 0 : in_vain + 1;
     if (is_better) {
       widest = draft_;
