@@ -37,6 +37,11 @@ std::vector<Vec2> shifts_of(const Space& space) {
   return shifts;
 }
 
+double edge_length(const Mesh& mesh, HalfedgeId h) {
+  const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h), a);
+  return distance(mesh.space(), a, b);
+}
+
 class PanelPainter : public Painter {
  public:
   PanelPainter(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options, std::size_t number)
@@ -58,11 +63,6 @@ class PanelPainter : public Painter {
   }
 
  private:
-  [[nodiscard]] double edge_length(HalfedgeId h) const {
-    const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
-    return distance(mesh_.space(), a, b);
-  }
-
   void add_line(PathText& path, const WeightedPoint& p, const WeightedPoint& q) const {
     const std::vector<Vec2> line = viewport_.view.line(p, q);
     for (const Vec2 shift : shifts_) {
@@ -264,11 +264,11 @@ class PanelPainter : public Painter {
     for (HalfedgeId side : {h, mesh_.twin(h)}) {
       if (!side.valid()) continue;
       for (HalfedgeId other : {Mesh::next(side), Mesh::prev(side)}) {
-        around += edge_length(other);
+        around += edge_length(mesh_, other);
         ++edges;
       }
     }
-    return edge_length(h) * edges < kNearCoincident * around;
+    return edge_length(mesh_, h) * edges < kNearCoincident * around;
   }
 
   void number_vertices() {
