@@ -23,6 +23,8 @@ class JointPolygons {
   [[nodiscard]] bool are_one(TriangleId a, TriangleId b) const {
     return a.valid() && b.valid() && has(a) && whole(a) == whole(b);
   }
+  /// Says whether an edge is inside a polygon.
+  [[nodiscard]] bool is_inside(HalfedgeId h) const { return mesh_.is_joint(h) && !mesh_.is_boundary(h); }
   /// Precondition of all others: has(t).
   [[nodiscard]] std::span<const TriangleId> triangles(TriangleId t) const { return at(t).triangles; }
   /// Counter-clockwise.
@@ -36,7 +38,6 @@ class JointPolygons {
     std::vector<HalfedgeId> sides;
   };
   [[nodiscard]] const Polygon& at(TriangleId t) const { return polygons_[static_cast<std::size_t>(number_[t])]; }
-  [[nodiscard]] bool is_inside(HalfedgeId h) const { return mesh_.is_joint(h) && !mesh_.is_boundary(h); }
   void add(TriangleId t);
   [[nodiscard]] std::vector<HalfedgeId> sides_of(std::span<const TriangleId> triangles) const;
 

@@ -60,7 +60,6 @@ class CellBuilder {
   [[nodiscard]] bool is_plain(TriangleId t) const;
   [[nodiscard]] bool is_plain_alone(TriangleId t) const;
   [[nodiscard]] bool has_special_corner(TriangleId t) const;
-  [[nodiscard]] bool is_inside_polygon(HalfedgeId h) const { return mesh_.is_joint(h) && !mesh_.is_boundary(h); }
   void divide_all();
   [[nodiscard]] LocalPolygon orthocenters_around(VertexId v, const Chart& chart) const;
   [[nodiscard]] Vec2 corner(VertexId v, HalfedgeId h, const Chart& chart) const;
@@ -122,7 +121,7 @@ bool CellBuilder::is_plain_alone(TriangleId t) const {
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k);
     if (tame_[mesh_.origin(h)] == 0) return false;
-    if (is_inside_polygon(h)) continue;
+    if (joints_.is_inside(h)) continue;
     const DecEdge& e = complex_.edges[complex_.edge_of_halfedge[h]];
     const bool at_polygon = (e.left.valid() && joints_.has(e.left)) || (e.right.valid() && joints_.has(e.right));
     const double least = at_polygon ? -kOnSide * e.length : 0;
@@ -252,7 +251,7 @@ void CellBuilder::emit(VertexId v, const Chart& chart, const LocalPolygon& polyg
 double CellBuilder::part_in(VertexId v, HalfedgeId h) const {
   double area = 0;
   for (const HalfedgeId side : {h, Mesh::prev(h)}) {
-    if (is_inside_polygon(side)) continue;  // what one triangle has too much, the other has too little
+    if (joints_.is_inside(side)) continue;  // what one triangle has too much, the other has too little
     const DecEdge& e = complex_.edges[complex_.edge_of_halfedge[side]];
     const double d = e.from == v ? e.crossing : e.length - e.crossing;
     area += mesh_.space().right_triangle_area(d, e.left == Mesh::triangle(h) ? e.left_height : e.right_height);

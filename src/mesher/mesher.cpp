@@ -284,6 +284,7 @@ class Mesher {
   [[nodiscard]] std::vector<TriangleId> left(const OutlineMesh& made) const {
     const bool by_target = has_faces(domain_) && options_.optimize;
     const Criterion criterion = by_target ? criterion_of(*options_.optimize) : Criterion::well_centered;
+    if (criterion == Criterion::well_centered && made.bad == 0) return {};
     return cells_at_violations(made.mesh, criterion, problem_.hooks.executor);
   }
   [[nodiscard]] bool is_finished(const OutlineMesh& made) const { return left(made).empty(); }

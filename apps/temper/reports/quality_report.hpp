@@ -93,7 +93,7 @@ inline void show_places_of_file(const tets::Quality& /*quality*/, const TetInput
 /// The first number of a report: it changes when a key is removed or its meaning changes. docs/schema has the keys.
 inline constexpr int kSchema = 1;
 
-/// What a target asks for, and how often a mesh violates it.
+/// The criterion of a target, and the number of its violations in a mesh.
 struct Verdict {
   std::string target;
   Criterion criterion = Criterion::well_centered;

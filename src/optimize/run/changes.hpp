@@ -9,9 +9,11 @@
 
 namespace temper {
 
-/// The part of the cells at violations from which on the places that they need are the whole mesh: a place is 13
+/// Says whether so many cells are at violations that the places that they need are the whole mesh: a place is 13
 /// triangles at least.
-inline constexpr double kManyPlaces = 1.0 / 13;
+[[nodiscard]] constexpr bool are_many(std::size_t at_violations, std::size_t n_cells) {
+  return static_cast<double>(at_violations) > 1.0 / 13 * static_cast<double>(n_cells);
+}
 
 /// Counts the vertices of the input that are elsewhere, or have another weight. `number(v)`: the number of v in the
 /// input, or one beyond. `is_moved(v, was)`: says whether v is elsewhere.

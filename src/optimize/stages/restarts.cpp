@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "energy/whole_mesh.hpp"
 #include "optimize/repair/repair_search.hpp"
+#include "optimize/run/changes.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/stages/driver.hpp"
 #include "temper/regularity.hpp"
@@ -199,7 +200,7 @@ Expected<Mended> mended(InputMesh& input, const Settings& settings, SweepState& 
   run.facts.input_flips = run.report.flips;
   const auto n_bad = [&] { return cells_at_violations(work.mesh, settings.criterion, settings.executor()).size(); };
   best.left = n_bad();
-  best.many = static_cast<double>(best.left) > kManyPlaces * static_cast<double>(work.mesh.n_triangles());
+  best.many = are_many(best.left, work.mesh.n_triangles());
   if (best.many) return best;
   best.candidate.sweep = driver.mend();
   best.left = n_bad();

@@ -38,12 +38,11 @@ constexpr double kRoomOfCosine = 1e-4;
 
 double AccuracyErrors::mean_ratio(const std::vector<double>& errors) const {
   double product = 1;
-  int counts = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    for (int k = 0; k < count(i); ++k, ++counts) product *= errors[i] / unit[i];
+    for (int k = 0; k < count(i); ++k) product *= errors[i] / unit[i];
   }
   const double root = std::sqrt(product);
-  return counts == 3 ? cube_root(root) : counts == 2 ? std::sqrt(root) : root;
+  return counts() == 3 ? cube_root(root) : counts() == 2 ? std::sqrt(root) : root;
 }
 
 AccuracyModel accuracy_model(Scheme scheme) {
@@ -140,8 +139,7 @@ Accuracy::Value Accuracy::value() const {
   if (!(sum > 0 && mean > 0 && std::isfinite(sum) && std::isfinite(mean))) return result;
   result.lowered = 2 * portable_log(mean) + kOffsetShare * portable_log(sum);
   result.measure = errors_.model ? mean : offsets;
-  int counts = 0;
-  for (std::size_t i = 0; i < errors.size(); ++i) counts += errors_.count(i);
+  const int counts = errors_.counts();
   for (const VertexId v : mesh_.vertices()) {
     slopes[v] = kOffsetShare / sum * slopes[v];
     for (std::size_t i = 0; i < errors.size(); ++i)

@@ -41,6 +41,12 @@ struct AccuracyErrors {
 
   /// How often error i counts in the mean.
   [[nodiscard]] int count(std::size_t i) const { return i == 1 && fronts_count_twice ? 2 : 1; }
+  /// How often all of them count together.
+  [[nodiscard]] int counts() const {
+    int sum = 0;
+    for (std::size_t i = 0; i < unit.size(); ++i) sum += count(i);
+    return sum;
+  }
   /// The geometric mean of root mean square errors over their units. Precondition: `errors` are squared, one or two.
   [[nodiscard]] double mean_ratio(const std::vector<double>& errors) const;
 };

@@ -58,8 +58,7 @@ class Driver : RepairRun {
   /// Changes places that violate the criterion alone, or the whole mesh if these are many or stay bad. Weights come
   /// first in any case: their programs are as small as the places.
   void change_bad_places() {
-    const auto n_tetrahedra = static_cast<double>(input_.mesh.n_tetrahedra());
-    many_are_bad_ = static_cast<double>(best_bad_) > kManyPlaces * n_tetrahedra;
+    many_are_bad_ = are_many(best_bad_, input_.mesh.n_tetrahedra());
     const std::size_t at_start = best_bad_;
     if (best_bad_ == 0 || takes_least_weights() || split_surface()) return;
     if (!many_are_bad_ && changes_connectivity()) repair_in_patches();

@@ -18,10 +18,11 @@ constexpr std::size_t kRoundsInVain = 4;
 constexpr double kSmallMargin = 0.01, kGainOfRound = 1e-3;
 // Tetrahedra that repairs may improve, each time they do: with 5,000 tetrahedra some ten seconds on one core.
 constexpr std::size_t kRepairWork = 300'000, kRepairWorkPerTet = 40;
-// The most of it if places are so many that patches around them fill the mesh: on thin shells most of them stay bad.
+// Where patches around places fill the mesh, as on thin shells, most places stay bad. So repairs may do less there.
 constexpr std::size_t kWorkOfMany = 40'000;
 // Trials in vain of a first pass over all patches: most of those that help are among the first.
 constexpr int kFewTrials = 2;
+
 }  // namespace
 
 RepairRun::RepairRun(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
@@ -78,8 +79,7 @@ void RepairRun::widen_margins() {
 
 void RepairRun::repair_in_patches() {
   draft_ = *best_.kept;
-  const bool are_many = static_cast<double>(best_bad_) > kManyPlaces * static_cast<double>(draft_.mesh.n_tetrahedra());
-  if (are_many) work_ = std::min(work_, kWorkOfMany);
+  if (are_many(best_bad_, draft_.mesh.n_tetrahedra())) work_ = std::min(work_, kWorkOfMany);
   const int trials = options_.tets.repair_trials;
   const bool each = options_.tets.patches == Patches::each;
   for (const double most_cosine : {most_cosine_, guarded_cosine()}) {  // smaller angles only if there is no other way
