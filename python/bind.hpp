@@ -155,6 +155,18 @@ DiffusionProblem problem_from(const py::tuple& given);
 
 /// The metric of the three numbers of a diffusion tensor.
 Metric metric_from(const py::handle& tensor);
+/// Tensors as _tensor.py gives them: three numbers, or a pair of one tensor for each triangle, (m, 3), and the weights
+/// of corners, (m, 3) or empty.
+struct GivenTensors {
+  std::optional<Tensor> one;
+  std::vector<Tensor> of_triangles;
+  std::vector<double> corner_weights;
+};
+GivenTensors tensors_from(const py::object& given);
+/// The mesh in the planes of its metrics.
+MetricMesh in_metric(const Mesh& mesh, const GivenTensors& given);
+/// The weights of the corners of each triangle, (m, 3); None without interfaces.
+py::object corner_weights_to_python(const std::vector<double>& weights);
 
 /// Raises unless the mesh lies in the plane, which `what` requires.
 void require_plane(const Mesh& mesh, std::string_view what);

@@ -42,15 +42,15 @@ py::dict incidence_to_dict(const py::object& owner, const IncidenceMatrix& matri
 
 struct PyDec {
   std::shared_ptr<const Mesh> mesh;
-  std::shared_ptr<const Mesh> measured;  // mesh in the metric of a tensor; else the same mesh
-  Metric metric;
+  std::shared_ptr<const MetricMesh> pieces;  // in the metrics of tensors; null without
+  Complex measured;                          // the operators of pieces; else the same
   Complex complex;
 
-  [[nodiscard]] bool has_tensor() const { return measured != mesh; }
   [[nodiscard]] PowerCells cells() const {
-    PowerCells made = power_cells(*measured, *complex);
-    return has_tensor() ? mapped_back(std::move(made), metric) : made;
+    PowerCells made = power_cells(as_measured(), *measured);
+    return pieces ? mapped_back(std::move(made), *pieces) : made;
   }
+  [[nodiscard]] const Mesh& as_measured() const { return pieces ? pieces->mesh : *mesh; }
 };
 
 /// `coefficient`: one value per triangle, or none at all.
@@ -63,12 +63,14 @@ PyDec make_dec(const PyMesh& self, const py::object& tensor, const Doubles& coef
   };
   if (tensor.is_none()) {
     const py::gil_scoped_release release;
-    return {mesh, mesh, {}, std::make_shared<const DecComplex>(operators(*mesh))};
+    const auto complex = std::make_shared<const DecComplex>(operators(*mesh));
+    return {mesh, nullptr, complex, complex};
   }
-  const Metric metric = metric_from(tensor);
+  const GivenTensors given = tensors_from(tensor);
   const py::gil_scoped_release release;
-  auto measured = std::make_shared<const Mesh>(or_raise(mapped(*mesh, metric)));
-  return {mesh, measured, metric, std::make_shared<const DecComplex>(mapped_back(operators(*measured), metric))};
+  auto pieces = std::make_shared<const MetricMesh>(in_metric(*mesh, given));
+  const auto measured = std::make_shared<const DecComplex>(operators(pieces->mesh));
+  return {mesh, pieces, measured, std::make_shared<const DecComplex>(mapped_back(*measured, *pieces, *mesh))};
 }
 
 py::dict dec_to_dict(const PyDec& d) {
@@ -83,7 +85,8 @@ py::dict dec_to_dict(const PyDec& d) {
              "transmissibility", whole(owner, c.transmissibility.raw()))(
              "orthocenters", places(owner, c.orthocenters.raw(), c.sphere_orthocenters.raw()))(
              "areas", whole(owner, c.areas.raw()))("coefficient", whole(owner, c.coefficient.raw()))(
-             "capacity", whole(owner, c.capacity.raw()))
+             "capacity", whole(owner, c.capacity.raw()))("half_transmissibility",
+                                                         whole(owner, c.half_transmissibility.raw()))
       .dict;
 }
 
@@ -100,14 +103,8 @@ py::dict cells_to_dict(const PyDec& d) {
 void bind_operators(py::module_& m) {
   py::class_<PyDec>(m, "DecComplex")
       .def("mesh", [](const PyDec& d) { return std::make_unique<PyMesh>(Mesh(*d.mesh)); })
-      .def("tensor",
-           [](const PyDec& d) -> py::object {
-             if (!d.has_tensor()) return py::none();
-             const Tensor& k = d.metric.tensor();
-             return py::make_tuple(k.xx, k.xy, k.yy);
-           })
       .def("arrays", dec_to_dict)
-      .def("summarize", [](const PyDec& d) { return report_to_python(summarize(*d.measured, *d.complex)); })
+      .def("summarize", [](const PyDec& d) { return report_to_python(summarize(d.as_measured(), *d.complex)); })
       .def("power_cells", cells_to_dict)
       .def("write",
            [](const PyDec& d, const std::string& folder, const py::sequence& formats, const py::object& threads) {

@@ -293,7 +293,7 @@ std::unique_ptr<PyMesh> map_mesh(const PyMesh& self, const py::object& tensor) {
   const Metric metric = metric_from(tensor);
   const auto mesh = self.read();
   const py::gil_scoped_release release;
-  return std::make_unique<PyMesh>(or_raise(mapped(*mesh, metric)));
+  return std::make_unique<PyMesh>(or_raise(mapped(*mesh, metric)).mesh);
 }
 
 std::unique_ptr<PyMesh> map_mesh_back(const PyMesh& changed, const PyMesh& original, const py::object& tensor,
@@ -312,7 +312,8 @@ std::unique_ptr<PyMesh> map_mesh_back(const PyMesh& changed, const PyMesh& origi
   IdVector<VertexId, VertexId> vertices;
   for (const std::int64_t number : given) vertices.push_back(number < 0 ? VertexId() : vertex_id(*before, number));
   auto result = std::make_unique<PyMesh>(original.copy());
-  result->replace(or_raise(mapped_back(*mesh, *before, metric, vertices)), vertices);
+  const MetricMesh pieces = or_raise(mapped(*before, metric));
+  result->replace(or_raise(mapped_back(with_mesh(pieces, *mesh, vertices), *before, pieces, vertices)).mesh, vertices);
   return result;
 }
 

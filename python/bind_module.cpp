@@ -29,6 +29,33 @@ Metric metric_from(const py::handle& tensor) {
   return or_raise(Metric::of({k[0].cast<double>(), k[1].cast<double>(), k[2].cast<double>()}));
 }
 
+GivenTensors tensors_from(const py::object& given) {
+  GivenTensors tensors;
+  if (given.cast<py::sequence>().size() == 3) {
+    tensors.one = metric_from(given).tensor();
+    return tensors;
+  }
+  const auto [of_triangles, weights] = given.cast<std::pair<Doubles, Doubles>>();
+  const auto k = as_span<double>(of_triangles);
+  for (std::size_t t = 0; t + 2 < k.size(); t += 3) tensors.of_triangles.push_back({k[t], k[t + 1], k[t + 2]});
+  const auto w = as_span<double>(weights);
+  tensors.corner_weights.assign(w.begin(), w.end());
+  return tensors;
+}
+
+MetricMesh in_metric(const Mesh& mesh, const GivenTensors& given) {
+  const Metrics metrics =
+      given.one ? Metrics(or_raise(Metric::of(*given.one))) : or_raise(Metrics::of(given.of_triangles));
+  return or_raise(mapped(mesh, metrics, given.corner_weights));
+}
+
+py::object corner_weights_to_python(const std::vector<double>& weights) {
+  if (weights.empty()) return py::none();
+  py::array_t<double> array({static_cast<py::ssize_t>(weights.size() / 3), py::ssize_t{3}});
+  std::copy(weights.begin(), weights.end(), array.mutable_data());
+  return array;
+}
+
 std::size_t choose(std::string_view option, std::string_view text, std::span<const std::string_view> names) {
   const auto found = std::find(names.begin(), names.end(), text);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());

@@ -133,7 +133,7 @@ std::optional<SizeField> size_field_from(const py::object& field) {
 struct RunArguments {
   py::object size_field, threads;
   Callbacks callbacks;
-  py::object tensor;        ///< Tensor kxx, kxy, kyy
+  py::object tensor;        ///< Tensors, as tensors_from() takes them
   py::object communicator;  ///< Communicator of mpi4py
   py::object depth;         ///< Water depth at each vertex
   py::object problem;       ///< Tuple of problem_from()
@@ -149,7 +149,12 @@ py::object optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments
     options.guard.depth.assign(values.begin(), values.end());
   }
   const auto count = threads_from(arguments.threads);
-  if (!arguments.tensor.is_none()) options.tensor = metric_from(arguments.tensor).tensor();
+  if (!arguments.tensor.is_none()) {
+    GivenTensors tensors = tensors_from(arguments.tensor);
+    options.tensor = tensors.one;
+    options.triangle_tensors = std::move(tensors.of_triangles);
+    options.corner_weights = std::move(tensors.corner_weights);
+  }
   Mesh mesh = *self.read();
   if (!arguments.problem.is_none()) options.problem = problem_from(arguments.problem);
   Visitor visitor;
@@ -172,7 +177,7 @@ py::object optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments
   if (report->has_value()) self.replace(std::move(mesh), (*report)->vertices);
   visitor.raise();
   if (!*report) throw BadInput{report->error()};
-  return report_to_python(**report);
+  return py::make_tuple(report_to_python(**report), corner_weights_to_python((*report)->corner_weights));
 }
 
 VertexId any_vertex(const py::handle& index) {

@@ -212,13 +212,24 @@ void bind_feasibility(py::module_& m) {
   m.def("best_connectivity", search_connectivity);
   m.def("find_weights", [](const PyMesh& self, const std::string& goal, double margin, bool from_input,
                            std::size_t whole, int rings, const std::string& constraints, double offset_factor,
-                           double boundary_offset_factor, const py::object& edges) {
+                           double boundary_offset_factor, const py::object& edges, const py::object& tensor) {
     const auto mesh = self.read();
     WeightOptions options =
         weight_options(goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor);
     options.edges = prescribed(*mesh, edges);
-    return weight_report_to_dict(
-        or_raise(aside([&] { return find_weights(*mesh, *clp_solver(), options, interior_point_solver().get()); })));
+    const auto found = [&](const auto& wanted) {
+      return or_raise(
+          aside([&] { return find_weights(wanted, *clp_solver(), options, interior_point_solver().get()); }));
+    };
+    py::object corner_weights = py::none();
+    if (tensor.is_none()) return Record{weight_report_to_dict(found(*mesh))}("corner_weights", corner_weights).dict;
+    MetricMesh pieces = in_metric(*mesh, tensors_from(tensor));
+    WeightReport report = found(pieces);
+    for (const VertexId v : pieces.mesh.vertices()) pieces.mesh.set_weight(v, report.weights[v]);
+    const WholeMesh whole_mesh = or_raise(mapped_back(pieces, *mesh, pieces));
+    report.weights.resize(mesh->n_vertices());
+    corner_weights = corner_weights_to_python(whole_mesh.corner_weights);
+    return Record{weight_report_to_dict(report)}("corner_weights", corner_weights).dict;
   });
   m.def("best_margin",
         [](const PyMesh& self, const py::object& triangles, const std::string& constraints, const py::object& edges) {

@@ -82,6 +82,9 @@ struct DecComplex {
   // With a coefficient, see with_coefficient(); else empty.
   IdVector<TriangleId, double> coefficient;  ///< K of each triangle
   IdVector<VertexId, double> capacity;  ///< ★0 with K: Σ K d_ij h_k / 2, for terms such as K ∂u/∂t [K length²]
+  /// With a tensor for each triangle, else empty: K ℓ/h, the transmissibility between the orthocenter of a triangle and
+  /// its edge. The transmissibility of an edge inside is 1/(1/a + 1/b) for those of its two halfedges.
+  IdVector<HalfedgeId, double> half_transmissibility;
   // On the sphere these replace midpoint and orthocenters, at its radius. Empty in the plane.
   IdVector<EdgeId, Vec3> sphere_midpoints;
   IdVector<TriangleId, Vec3> sphere_orthocenters;
@@ -118,6 +121,7 @@ struct DecSummary {
   double median_transmissibility = 0, max_transmissibility = 0;
 };
 [[nodiscard]] const ReportTable& table_of(const DecSummary*);
+/// `mesh`: as it was measured; in pieces if tensors are of several planes.
 [[nodiscard]] DecSummary summarize(const Mesh& mesh, const DecComplex& complex);
 
 /// The common face of two power cells within the domain: a piece of the line on which both vertices have equal power.
@@ -160,14 +164,19 @@ struct PowerCells {
 /// dec_operators(mesh). O(n) for well-centered triangles, and about ten microseconds for each other triangle.
 [[nodiscard]] PowerCells power_cells(const Mesh& mesh, const DecComplex& complex);
 
-// --- with a diffusion tensor (temper/detail/tensor.hpp): operators of a mapped mesh, in the plane that it comes from
-// ----------
+// --- with diffusion tensors (temper/detail/tensor.hpp): operators of a mapped mesh, in the plane that it comes from
+// ---
 
-/// The operators for −div(K ∇u) in the original plane, from the operators of the mesh mapped by the metric of K. ★1 and
-/// transmissibility are multiplied by √(det K). Orthocenters and midpoints are mapped back. Areas are equal in both.
-/// Lengths, crossings and heights stay in the metric.
-[[nodiscard]] DecComplex mapped_back(DecComplex complex, const Metric& metric);
-/// The cells of a mapped mesh with their corners mapped back. Faces keep their widths in the metric.
-[[nodiscard]] PowerCells mapped_back(PowerCells cells, const Metric& metric);
+/// The operators for −div(K ∇u) of a mesh, from the operators of pieces = mapped(mesh, …). ★1 and transmissibility have
+/// the factor √(det K). Orthocenters and midpoints are mapped back. Areas are equal in both. Lengths, crossings and
+/// heights stay in the metric.
+///
+/// At an edge of an interface ★1 is √(det K_k) h_k/ℓ_k + √(det K_l) h_l/ℓ_l, each part in the plane of its side. The
+/// transmissibility is the harmonic sum of the two. Length and crossing are of the side on the left. The height on the
+/// right is multiplied by ℓ_k/ℓ_l. ★0 is the sum of all copies of a vertex.
+[[nodiscard]] DecComplex mapped_back(DecComplex complex, const MetricMesh& pieces, const Mesh& mesh);
+/// The cells of pieces with their corners mapped back, and those of all copies of a vertex as one. Faces keep their
+/// widths in the metric.
+[[nodiscard]] PowerCells mapped_back(PowerCells cells, const MetricMesh& pieces);
 
 }  // namespace temper

@@ -29,6 +29,7 @@
 #include "temper/detail/convex.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/detail/ids.hpp"
+#include "temper/detail/tensor.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -107,6 +108,7 @@ struct WeightConstraint {
                ///< tetrahedra, the two triangles are faces of the surface (temper/tets/weights.hpp)
     height_over_face,  ///< Height over the face pqr of the positive tetrahedron pqrs
     dual_of_face,      ///< Dual length of pqr: the sum of the heights over it in the tetrahedra pqrs and prqt
+    equal_crossing,    ///< Equation: d/ℓ of pq is that of rs, the same edge on the other side of an interface
   };
   Kind kind = Kind::height;
   VertexId p, q, r;  ///< Vertices; r is invalid for a crossing
@@ -115,7 +117,7 @@ struct WeightConstraint {
 
   friend bool operator==(const WeightConstraint&, const WeightConstraint&) = default;
 };
-/// "height", "crossing", "dual", "height_over_face", "dual_of_face".
+/// "height", "crossing", "dual", "height_over_face", "dual_of_face", "equal_crossing".
 [[nodiscard]] std::string_view name(WeightConstraint::Kind kind);
 
 /// Reach of certificates about dual lengths (`regular`, `coefficients`, `distances`): they assume that weights differ
@@ -135,6 +137,7 @@ inline constexpr double kLeastRefutedDual = 0x1p-20;
 ///   height  N = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r) = 2 h ℓ S,               M = 2 ℓ² S
 ///   crossing   N = ℓ² + w_p − w_q                                = 2 d ℓ,                 M = 2 ℓ²
 ///   dual    N = λ_q (r × s) + λ_r (s × q) + λ_s (q × r)       = 2 (h_r + h_s) S T / ℓ, M = 2 S T
+///   equal crossing  N = |r − s|² (w_p − w_q) − |p − q|² (w_r − w_s) = 0, with a multiplier of either sign
 ///
 /// Constraints of `coefficients` are N_c ≥ margin · M_c, and only dual lengths of interior edges have a margin. Their
 /// sum is a contradiction if the rest is < 0.
@@ -188,6 +191,9 @@ enum class CertificateCheck {
 ///   - with heights alone: by q·r/p·r
 ///   - with dual lengths: |σ_q/σ_p − 1| < the lesser of 1 and kWeightReach (|q|²/p·q − 1)
 [[nodiscard]] CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate);
+/// The same in the planes of several tensors, with the equations of interfaces. Certificates of `heights_only` prove
+/// nothing there.
+[[nodiscard]] CertificateCheck check_certificate(const MetricMesh& pieces, const Certificate& certificate);
 
 // --- margins ------------------------------------------------------------------------------------------
 
@@ -348,5 +354,14 @@ struct WeightReport {
 /// triangles.
 [[nodiscard]] Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options = {},
                                                   ConvexSolver* convex = nullptr);
+/// The largest difference between the crossings d/ℓ of an interface edge, as its two sides have them; 0 without
+/// interfaces. With rounding alone, dual edges have one crossing with each interface.
+[[nodiscard]] double largest_gap(const MetricMesh& pieces);
+/// Changes the weights of interfaces as little as possible, so that largest_gap() is rounding.
+void close_gaps(MetricMesh& pieces);
+/// The same in the planes of several tensors: one weight for each vertex and region, and the equations of interfaces.
+/// Change is measured from weights that keep them. Error also: center, accuracy and least across interfaces.
+[[nodiscard]] Expected<WeightReport> find_weights(const MetricMesh& pieces, LpSolver& solver,
+                                                  const WeightOptions& options = {}, ConvexSolver* convex = nullptr);
 
 }  // namespace temper

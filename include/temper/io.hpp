@@ -426,6 +426,12 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 DataReport update(MeshFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh,
                   const tets::Origins& origins = {}, const UpdateOptions& options = {});
 
+/// The weight of each corner of each triangle of the mesh, three each, from cell data `corner_weights` of the file;
+/// empty if it has none. Meshes with tensors of several planes have them (temper/detail/tensor.hpp).
+[[nodiscard]] std::vector<double> corner_weights_of(const MeshFile& file, const LoadedMesh& loaded);
+/// Sets these cell data of a file after update(). Empty: the file has none any more.
+void set_corner_weights(MeshFile& file, const std::vector<double>& weights);
+
 /// Frees the points, weights and triangles of a file after make_mesh(); update() writes them again. It does nothing in
 /// these cases:
 ///   - points were dropped or are on a sphere

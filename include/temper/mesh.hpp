@@ -159,7 +159,9 @@ class Mesh {
   void set_fixed(VertexId v, bool fixed);
   /// Says whether the place and the weight of a vertex stay: a dual that must stay depends on them. It is fixed, too.
   [[nodiscard]] bool is_frozen(VertexId v) const { return (record(v).flags & kFrozen) != 0; }
-  void set_frozen(VertexId v) { record(v).flags |= kFrozen; }
+  void set_frozen(VertexId v, bool frozen = true);
+  /// Says whether both ends of the edge of h are frozen: no vertex is inserted on it.
+  [[nodiscard]] bool is_frozen(HalfedgeId h) const { return is_frozen(origin(h)) && is_frozen(target(h)); }
   /// Precondition: v is not isolated.
   [[nodiscard]] bool is_boundary(VertexId v) const { return !twin(outgoing(v)).valid(); }
   /// Says whether v is in no triangle: just added, or removed and still there until compact().

@@ -393,6 +393,12 @@ struct OptimizeOptions {
   /// Constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The
   /// report and snapshots are in that plane. Absent: K = 1.
   std::optional<Tensor> tensor = {};
+  /// Tensor of each triangle of the input, instead of `tensor`. Vertices between triangles with different tensors stay.
+  /// They get a weight for each region (temper/detail/tensor.hpp). Empty: one tensor for all.
+  std::vector<Tensor> triangle_tensors = {};
+  /// Weight of each corner of each triangle of the input, as in OptimizeReport; only with `triangle_tensors`. Empty:
+  /// the weights of the vertices.
+  std::vector<double> corner_weights = {};
   /// The user's own problem. The run lowers its error, or says why it cannot: see wants_error_model(). Absent: the
   /// mean error of many smooth solutions with K = 1.
   std::optional<DiffusionProblem> problem = {};
@@ -511,6 +517,10 @@ struct OptimizeReport : RunReport {
   std::size_t bad_before = 0;                 ///< Triangles of the input that are not well-centered, before any flip
   std::size_t bad_after = 0;                  ///< Triangles of the result that are not well-centered
   SizeChange size;
+  /// Weight of each corner of each triangle of the result, three each, if its tensors have several planes. Else empty.
+  std::vector<double> corner_weights;
+  std::vector<Tensor>
+      triangle_tensors;  ///< Tensor of each triangle of the result, with OptimizeOptions::triangle_tensors
 };
 [[nodiscard]] const ReportTable& table_of(const OptimizeReport*);
 

@@ -14,6 +14,7 @@ from . import _temper
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._records import Record
 from ._reports import DecSummary, TetDecSummary
+from ._tensor import TensorLike, plain_tensor, values_of_regions
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 
 CoefficientLike = Union[npt.ArrayLike, Mapping[int, float], Mapping[str, float], Mapping[Union[str, int], float]]
@@ -169,12 +170,16 @@ class DecComplex(_Complex):
     """Coefficient K of each triangle, (m,); empty without one."""
     capacity: npt.NDArray[np.float64]
     """★0 with K: Σ K d_ij h_k / 2, (n,) [K length²], for terms such as K ∂u/∂t; empty without a coefficient."""
+    half_transmissibility: npt.NDArray[np.float64]
+    """With several tensors, else empty: K ℓ/h of each halfedge, (3 m,), the transmissibility between the orthocenter of
+    a triangle and its edge. That of an edge inside is 1/(1/a + 1/b) for its two halfedges (``edge_of_halfedge``)."""
     _handle: Any = dataclasses.field(repr=False, compare=False)
+    _tensor: Any = dataclasses.field(repr=False, compare=False)
 
     def __reduce__(self) -> Any:
         lines = {name: self.edges.vertices[numbers] for name, numbers in self.edges.named.items()}
         coefficient = self.coefficient.copy() if len(self.coefficient) else np.empty(0)
-        return _dec_of, (Mesh._of(self._handle.mesh()), self._handle.tensor(), coefficient, lines)
+        return _dec_of, (Mesh._of(self._handle.mesh()), self._tensor, coefficient, lines)
 
     def summarize(self) -> DecSummary:
         """Summarizes counts, signs and extremes."""
@@ -300,25 +305,7 @@ def _coefficient_of(mesh: Mesh | TetMesh, coefficient: CoefficientLike | None) -
                 f"shape ({n},), or a dictionary of regions; found shape {values.shape}"
             )
         return values
-    regions, which = np.unique(mesh.regions, return_inverse=True)
-    dimension = 3 if isinstance(mesh, TetMesh) else 2
-    names = [(name, tag) for of, tag, name in mesh._file()["names"] if of == dimension]
-    values_of: dict[Any, float] = {}
-    for region, value in coefficient.items():
-        for tag in [tag for name, tag in names if name == region] or [region]:
-            if tag in values_of:
-                raise ValueError(f"coefficient: region {tag} has two values. Next: give one, by the tag or by the name")
-            values_of[tag] = float(value)
-    missing = [int(r) for r in regions if int(r) not in values_of]
-    unknown = [r for r in values_of if isinstance(r, str) or r not in regions]
-    if missing or unknown:
-        name_of = {tag: name for name, tag in names}
-        known = ", ".join(f"{r} ({name_of[r]!r})" if r in name_of else str(r) for r in regions.tolist())
-        raise ValueError(
-            f"coefficient: expected a value for each of the regions {known}; "
-            + (f"there is none for {missing}" if missing else f"the mesh has no region {unknown}")
-        )
-    return np.array([values_of[int(r)] for r in regions])[which]
+    return values_of_regions(mesh, coefficient, "coefficient")
 
 
 @overload
@@ -329,13 +316,13 @@ def dec_operators(
 def dec_operators(
     mesh: MeshLike,
     *,
-    tensor: Sequence[float] | None = ...,
+    tensor: TensorLike | None = ...,
     coefficient: CoefficientLike | None = ...,
 ) -> DecComplex: ...
 def dec_operators(
     mesh: AnyMeshLike,
     *,
-    tensor: Sequence[float] | None = None,
+    tensor: TensorLike | None = None,
     coefficient: CoefficientLike | None = None,
 ) -> DecComplex | TetDecComplex:
     """The operators of a mesh, as exact as doubles allow.
@@ -343,9 +330,10 @@ def dec_operators(
     Parameters
     ----------
     mesh : Mesh, TetMesh, or of another library
-    tensor : sequence of float, optional
-        kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Duals and lengths are measured in its metric. ★1
-        and transmissibility are multiplied by √(det K) (docs/howto/anisotropic.md). For triangles alone.
+    tensor : sequence of float, (m, 3) array, or dict of region to sequence, optional
+        kxx, kxy, kyy of a diffusion tensor K, for −div(K ∇u): of the mesh, of each triangle, or of each region by its
+        tag or name. Duals and lengths are measured in its metric. ★1 and transmissibility are multiplied by √(det K)
+        (docs/howto/anisotropic.md). Several tensors take ``mesh.cell_data["corner_weights"]``. For triangles alone.
     coefficient : array of float, or dict of region to float, optional
         K > 0 of −div(K ∇u) on each triangle or tetrahedron, (m,), or by region: its tag or its name. With it ★1 = (K_k
         h_k + K_l h_l)/ℓ, for unknowns at vertices. The transmissibility is ℓ/(h_k/K_k + h_l/K_l), the harmonic mean,
@@ -376,8 +364,7 @@ def dec_operators(
     if isinstance(any_mesh, TetMesh):
         expect_no_options_of_triangles(dec_operators, tensor=tensor)
         return _tet_dec_of(any_mesh, _coefficient_of(any_mesh, coefficient))
-    tensor = None if tensor is None else tuple(tensor)
-    return _dec_of(any_mesh, tensor, _coefficient_of(any_mesh, coefficient), _named_lines(any_mesh))
+    return _dec_of(any_mesh, plain_tensor(any_mesh, tensor), _coefficient_of(any_mesh, coefficient), _named_lines(any_mesh))
 
 
 def _named_lines(mesh: Mesh) -> dict[str, npt.NDArray[np.int32]]:
@@ -392,7 +379,7 @@ def _named_lines(mesh: Mesh) -> dict[str, npt.NDArray[np.int32]]:
 
 def _dec_of(
     mesh: Mesh,
-    tensor: tuple[float, ...] | None,
+    tensor: tuple[Any, ...] | None,
     coefficient: npt.NDArray[np.float64],
     named: dict[str, npt.NDArray[np.int32]],
 ) -> DecComplex:
@@ -404,7 +391,7 @@ def _dec_of(
         low, high = np.sort(lines.astype(np.int64), axis=1).T
         edges.named[name] = np.flatnonzero(np.isin(keys, low * mesh.n_vertices + high)).astype(np.int32)
     d0, d1 = IncidenceMatrix(**arrays.pop("d0")), IncidenceMatrix(**arrays.pop("d1"))
-    return DecComplex(edges=edges, d0=d0, d1=d1, _handle=handle, **arrays)
+    return DecComplex(edges=edges, d0=d0, d1=d1, _handle=handle, _tensor=tensor, **arrays)
 
 
 def _tet_dec_of(mesh: TetMesh, coefficient: npt.NDArray[np.float64]) -> TetDecComplex:

@@ -18,6 +18,7 @@ from ._options import EffortName, KeepName, OptimizeOptions, TargetName, _words,
 from ._progress import Line
 from ._records import Record
 from ._reports import OptimizeReport, Progress, TraceEvent
+from ._tensor import CORNER_WEIGHTS, TensorLike, plain_tensor
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 from .size import SizeField
 
@@ -97,7 +98,7 @@ def optimize(
     keep: KeepName | Sequence[KeepName] = (),
     boundary: Literal["keep", "slide", "split"] | None = None,
     size_field: SizeField | None = None,
-    tensor: Sequence[float] | None = None,
+    tensor: TensorLike | None = None,
     time_limit: float | None = None,
     threads: int | None = None,
     progress: bool | Callable[[Progress], Any] | None = None,
@@ -138,9 +139,11 @@ def optimize(
         along straight pieces. ``"split"``: long edges next to short ones are cut.
     size_field : SizeField, optional
         Size field to compare sizes with. None: the input's own sizes.
-    tensor : sequence of float, optional
-        kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u). Triangles become well-centered in its metric.
-        The report and the snapshots are in this metric too. Not with ``size_field`` and a tracer.
+    tensor : sequence of float, (m, 3) array, or dict of region to sequence, optional
+        kxx, kxy, kyy of a diffusion tensor K, for −div(K ∇u): of the mesh, of each triangle, or of each region by its
+        tag or name. Triangles become well-centered in the metric of their tensor. The report and the snapshots are in
+        this metric too. Where tensors differ, vertices stay, and they get a weight for each region, which
+        ``mesh.cell_data["corner_weights"]`` holds. Not with ``size_field`` and a tracer.
     time_limit : float, optional
         Time limit in seconds. The run then ends with the best mesh so far. None: no limit.
     threads : int, optional
@@ -231,10 +234,12 @@ def optimize(
     field = size_field._handle if size_field is not None else None
     original = changed.copy() if tensor is None and 0 < changed.n_triangles <= PICTURE else None
     with _put_back_at_end(mesh, changed, line):
-        report = _temper.optimize(
-            changed._handle, plain, field, threads, watch, hooks.tracer, look, None if tensor is None else tuple(tensor), hooks.communicator,
+        report, corner_weights = _temper.optimize(
+            changed._handle, plain, field, threads, watch, hooks.tracer, look, plain_tensor(changed, tensor), hooks.communicator,
             _depth(changed, plain), problem,
         )
+        if corner_weights is not None:
+            changed.cell_data[CORNER_WEIGHTS] = corner_weights
     data = _temper.data_report(changed._handle, threads) if changed._handle.has_data() else None
     if data is not None and data.dropped:
         what = f"point data {', '.join(data.dropped)} are dropped: their whole numbers differ around an inserted vertex"

@@ -1,14 +1,65 @@
-"""A constant diffusion tensor: meshes in the plane of its metric, and back."""
+"""Diffusion tensors: of a mesh or of its regions; meshes in the plane of one metric, and back."""
 
 from __future__ import annotations
 
-from typing import Sequence
+from typing import Any, Mapping, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _temper
 from ._mesh import Mesh, MeshLike, as_mesh
+from ._tets import TetMesh
+
+TensorLike = Union[Sequence[float], npt.ArrayLike, Mapping[int, Sequence[float]], Mapping[str, Sequence[float]]]
+"""kxx, kxy, kyy of one tensor; one for each triangle, (m, 3); or one for each region by its tag or name."""
+
+CORNER_WEIGHTS = "corner_weights"
+"""Cell data with a weight for each vertex and region: of each corner of each triangle, (m, 3) [length²]."""
+
+
+def values_of_regions(mesh: Mesh | TetMesh, values: Mapping[Any, Any], what: str) -> npt.NDArray[np.float64]:
+    """The value of the region of each triangle or tetrahedron. ``values``: by tag or name."""
+    regions, which = np.unique(mesh.regions, return_inverse=True)
+    dimension = 3 if isinstance(mesh, TetMesh) else 2
+    names = [(name, tag) for of, tag, name in mesh._file()["names"] if of == dimension]
+    values_of: dict[Any, Any] = {}
+    for region, value in values.items():
+        for tag in [tag for name, tag in names if name == region] or [region]:
+            if tag in values_of:
+                raise ValueError(f"{what}: region {tag} has two values. Next: give one, by the tag or by the name")
+            values_of[tag] = value
+    missing = [int(r) for r in regions if int(r) not in values_of]
+    unknown = [r for r in values_of if isinstance(r, str) or r not in regions]
+    if missing or unknown:
+        name_of = {tag: name for name, tag in names}
+        known = ", ".join(f"{r} ({name_of[r]!r})" if r in name_of else str(r) for r in regions.tolist())
+        raise ValueError(
+            f"{what}: expected a value for each of the regions {known}; "
+            + (f"there is none for {missing}" if missing else f"the mesh has no region {unknown}")
+        )
+    return np.array([values_of[int(r)] for r in regions], dtype=np.float64)[which]
+
+
+def plain_tensor(mesh: Mesh, tensor: TensorLike | None) -> tuple[Any, ...] | None:
+    """Tensors for the compiled module: three numbers, or an array (m, 3) and the weights of corners."""
+    if tensor is None:
+        return None
+    if isinstance(tensor, Mapping):
+        values = values_of_regions(mesh, tensor, "tensor")
+    else:
+        values = np.asarray(tensor, dtype=np.float64)
+        if values.ndim == 1 and len(values) == 3:
+            return tuple(values.tolist())
+        if values.ndim == 1:
+            raise ValueError(f"tensor: expected kxx, kxy, kyy, found {len(values)} numbers")
+    if values.shape != (mesh.n_triangles, 3):
+        raise ValueError(
+            f"tensor: expected kxx, kxy, kyy, or one for each triangle, shape ({mesh.n_triangles}, 3), or a dictionary "
+            f"of regions; found shape {values.shape}"
+        )
+    weights = mesh.cell_data.get(CORNER_WEIGHTS) if mesh._handle.has_data() else None
+    return np.ascontiguousarray(values), np.empty(0) if weights is None else np.ascontiguousarray(weights)
 
 
 def mapped(mesh: MeshLike, tensor: Sequence[float]) -> Mesh:

@@ -15,6 +15,7 @@ from ._certificate import Certificate, Constraints, WeightConstraint, read_certi
 from ._mesh import Mesh, MeshLike, _ints, as_mesh
 from ._records import Record, expect, merged
 from ._reports import EdgeConflict
+from ._tensor import TensorLike, plain_tensor
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
 
 
@@ -148,6 +149,9 @@ class WeightReport(Record):
     certificate: Certificate
     optimality: Optimality | None = None
     """Proof that the weights are best; only for center and accuracy, if solved."""
+    corner_weights: npt.NDArray[np.float64] | None = None
+    """With tensors that differ: weight of each corner of each triangle, (m, 3) [length²], for
+    ``mesh.cell_data["corner_weights"]``. ``weights`` then has one of the weights of each vertex."""
 
     @classmethod
     def _of(cls, d: dict[str, Any]) -> WeightReport:
@@ -169,6 +173,7 @@ def find_weights(
     edges: npt.ArrayLike | None = None,
     offset_factor: float = 10.0,
     boundary_offset_factor: float = 5.0,
+    tensor: TensorLike | None = None,
 ) -> WeightReport:
     """Finds weights for a mesh with fixed positions and connectivity, by linear programming (Clp) or by an interior
     point method. The mesh does not change.
@@ -202,6 +207,10 @@ def find_weights(
     offset_factor, boundary_offset_factor : float
         Factors of the offsets inside and of the heights on the boundary, for ``accuracy``. 10 and 5 are for any scheme,
         10 and 0.5 for unknowns at vertices, 10 and 30 for two-point fluxes, 20 and 18 for diagonal stars.
+    tensor : sequence of float, (m, 3) array, or dict of region to sequence, optional
+        Diffusion tensors, as in ``optimize``: constraints hold in their metrics. If they differ, weights keep the
+        equations of interfaces, and ``corner_weights`` has them; goals center, accuracy and least are refused. For
+        triangles alone.
 
     Notes
     -----
@@ -223,10 +232,10 @@ def find_weights(
     any_mesh = as_any_mesh(mesh)
     wanted = goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor
     if isinstance(any_mesh, TetMesh):
-        expect_no_options_of_triangles(find_weights, edges=edges)
+        expect_no_options_of_triangles(find_weights, edges=edges, tensor=tensor)
         d = _temper.tet_find_weights(any_mesh._handle, *wanted)
     else:
-        d = _temper.find_weights(any_mesh._handle, *wanted, _edges(edges))
+        d = _temper.find_weights(any_mesh._handle, *wanted, _edges(edges), plain_tensor(any_mesh, tensor))
     return WeightReport._of(d)
 
 

@@ -19,7 +19,6 @@
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "temper/detail/geometry.hpp"
-#include "temper/detail/tensor.hpp"
 
 namespace temper {
 namespace {
@@ -317,19 +316,6 @@ Expected<DecComplex> with_coefficient(const Mesh& mesh, DecComplex complex, std:
   return complex;
 }
 
-DecComplex mapped_back(DecComplex complex, const Metric& metric) {
-  for (DecEdge& edge : complex.edges) edge.midpoint = metric.from_metric(edge.midpoint);
-  for (Vec2& place : complex.orthocenters) place = metric.from_metric(place);
-  for (double& value : complex.star1) value *= metric.strength();
-  for (double& value : complex.transmissibility) value *= metric.strength();
-  return complex;
-}
-
-PowerCells mapped_back(PowerCells cells, const Metric& metric) {
-  for (Vec2& corner : cells.corners) corner = metric.from_metric(corner);
-  return cells;
-}
-
 // A summary of the operators for the authors of solvers: signs, sums, extremes.
 
 namespace {
@@ -376,7 +362,7 @@ void find_extremes(DecSummary& s, const DecComplex& complex) {
 
 DecSummary summarize(const Mesh& mesh, const DecComplex& complex) {
   DecSummary s;
-  s.vertices = mesh.n_vertices();
+  s.vertices = complex.star0.size();
   s.edges = complex.edges.size();
   s.triangles = mesh.n_triangles();
   count_signs(s, mesh, complex);

@@ -93,6 +93,7 @@ std::optional<double> distance_from_one(const Number& n, const Number& d) {
 }
 
 bool counts(Constraints constraints, Kind kind) {
+  if (kind == Kind::equal_crossing) return constraints != Constraints::heights_only;  // it has no bound there
   switch (constraints) {
     case Constraints::well_centered:
       return kind == Kind::height || kind == Kind::crossing;
@@ -112,6 +113,16 @@ bool counts(Constraints constraints, Kind kind) {
 /// Says whether h is the only halfedge of its edge, or between two regions.
 bool is_outer(const Mesh& mesh, HalfedgeId h, HalfedgeId back) {
   return !back.valid() || mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(back));
+}
+
+/// Says whether c is the equation of one of these edges of interfaces.
+bool is_seam(const Mesh& mesh, const WeightConstraint& c, std::span<const SeamEdge> seams) {
+  const auto has = [&](HalfedgeId h, VertexId from, VertexId to) {
+    return mesh.origin(h) == from && mesh.target(h) == to;
+  };
+  return !c.t.valid() && std::any_of(seams.begin(), seams.end(), [&](const SeamEdge& seam) {
+    return has(seam.one, c.p, c.q) && has(seam.other, c.s, c.r);
+  });
 }
 
 /// Says whether c is one of the mesh, with no vertex more than its kind has.
@@ -145,6 +156,9 @@ class PlaneTerms : public WeightDifferences {
         return height_polynomial(at(c.p, c.p), at(c.q, c.p), at(c.r, c.p), margin);
       case Kind::dual:
         return dual_polynomial(at(c.p, c.p), at(c.q, c.p), at(c.r, c.p), at(c.s, c.p), margin);
+      case Kind::equal_crossing:
+        return polynomial_of_equal_crossing(difference(at(c.q, c.p), at(c.p, c.p)),
+                                            difference(at(c.s, c.r), at(c.r, c.r)));
       default:
         return polynomial_of_crossing(difference(at(c.q, c.p), at(c.p, c.p)), margin);
     }
@@ -243,19 +257,32 @@ std::string_view name(CertificateCheck check) {
   return kNames[static_cast<std::size_t>(check)];
 }
 
-CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate) {
+namespace {
+
+CertificateCheck check_with(const Mesh& mesh, std::span<const SeamEdge> seams, const Certificate& certificate) {
   if (!has_good_multipliers(certificate)) return CertificateCheck::bad_multiplier;
   const bool outer = assumes_reach(certificate.constraints);
   for (const auto& term : certificate.terms) {
-    if (!counts(certificate.constraints, term.constraint.kind) || !is_of(mesh, term.constraint, outer)) {
-      return CertificateCheck::not_of_this_mesh;
-    }
+    const WeightConstraint& c = term.constraint;
+    const bool known = c.kind == Kind::equal_crossing ? is_seam(mesh, c, seams) : is_of(mesh, c, outer);
+    if (!known || !counts(certificate.constraints, c.kind)) return CertificateCheck::not_of_this_mesh;
   }
   const bool in_plane = mesh.space().is_plane();
-  const Scale scale = scale_of(certificate, {4, 2, in_plane ? 4 : 3}, in_plane ? kLeastInPlane : kLeastOnSphere,
-                               [&](VertexId v) { return place_in(mesh, v); });
+  const Scale scale =
+      scale_of(certificate, {4, 2, in_plane ? 4 : 3, 0, 0, 4}, in_plane ? kLeastInPlane : kLeastOnSphere,
+               [&](VertexId v) { return place_in(mesh, v); });
   if (in_plane) return check_sum(PlaneTerms(mesh, scale, certificate.constraints), certificate, scale);
   return check_sum(SphereTerms(mesh, scale, certificate.constraints), certificate, scale);
+}
+
+}  // namespace
+
+CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate) {
+  return check_with(mesh, {}, certificate);
+}
+
+CertificateCheck check_certificate(const MetricMesh& pieces, const Certificate& certificate) {
+  return check_with(pieces.mesh, seams_of(pieces), certificate);
 }
 
 }  // namespace temper

@@ -50,6 +50,13 @@ Polynomial polynomial_of_height(const Vector& pq, const Vector& pr, const Vector
   return {{at_q, at_p, -l2}, l2 * at_r};
 }
 
+/// N of the equal crossings of pq and rs.
+template <class Vector>
+Polynomial polynomial_of_equal_crossing(const Vector& pq, const Vector& rs) {
+  const Number here = dot(rs, rs), there = dot(pq, pq);
+  return {{here, -here, -there, there}, Number()};
+}
+
 /// N − t M of the crossing of pq.
 template <class Vector>
 Polynomial polynomial_of_crossing(const Vector& pq, double margin) {
@@ -67,7 +74,7 @@ constexpr bool assumes_reach(Constraints constraints) {
 
 inline bool has_good_multipliers(const Certificate& certificate) {
   const auto good = [](const Certificate::Term& term) {
-    return std::isfinite(term.multiplier) && term.multiplier >= 0;
+    return std::isfinite(term.multiplier) && (term.multiplier >= 0 || term.constraint.kind == Kind::equal_crossing);
   };
   const auto positive = [](const Certificate::Term& term) { return term.multiplier > 0; };
   return certificate.margin >= 0 && certificate.margin < 0.5 &&
@@ -77,7 +84,7 @@ inline bool has_good_multipliers(const Certificate& certificate) {
 
 /// Exponents that bring coordinates into [−1, 1] and the multiplier 1 into the middle of its range.
 struct Scale {
-  std::array<int, 5> degrees = {};  ///< of N, by its kind
+  std::array<int, 6> degrees = {};  ///< of N, by its kind
   int length = 0, multiplier = 0;
   bool in_range = true;
 
@@ -104,7 +111,7 @@ constexpr double kRoundedUp = 1 + 0x1p-40;  // far above the rounding of approxi
 
 /// `place_of(v)` is the place of a vertex; 0 or at least `least_coordinate` times the largest coordinate.
 template <class PlaceOf>
-Scale scale_of(const Certificate& certificate, const std::array<int, 5>& degrees, double least_coordinate,
+Scale scale_of(const Certificate& certificate, const std::array<int, 6>& degrees, double least_coordinate,
                const PlaceOf& place_of) {
   Scale scale;
   scale.degrees = degrees;
@@ -152,7 +159,7 @@ class Sum {
   Sum(const Terms& terms, const Certificate& certificate, const Scale& scale)
       : terms_(terms), scale_(scale), constraints_(certificate.constraints) {
     for (const auto& term : certificate.terms) {
-      if (term.multiplier > 0) add(term, certificate.margin);
+      if (term.multiplier != 0) add(term, certificate.margin);
     }
   }
   /// C plus the upper bound of each part; if parts have factors of their own, the largest of these sums.
@@ -186,6 +193,8 @@ class Sum {
         return join_triangle(c.p, c.q, c.r);
       case Kind::dual:
         return join_triangle(c.p, c.q, c.r), join_triangle(c.q, c.p, c.s);
+      case Kind::equal_crossing:
+        return join_edge(c.p, c.q, {}), join_edge(c.r, c.s, {});
       case Kind::height_over_face:
         return join_tetrahedron(c.p, c.q, c.r, c.s);
       case Kind::dual_of_face:

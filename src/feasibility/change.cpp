@@ -64,6 +64,7 @@ class ProgramBuilder {
     for (const WeightConstraint& c : demand_.constraints_of(region_.cells, true)) {
       if (c.kind != WeightConstraint::Kind::crossing || !crossings_are_differences()) add_rows(c);
     }
+    for (const WeightConstraint& c : demand_.equations_of(region_.cells)) add_equation(demand_.linear_form(c));
     return std::move(p_);
   }
 
@@ -122,6 +123,13 @@ class ProgramBuilder {
     p_.lp.end_row(0, 0);
   }
 
+  void add_equation(const LinearForm& form) {
+    bool any_free = false;
+    for (int k = 0; k < form.size; ++k) any_free = add_potential(form.vertices[k], form.coefficients[k]) || any_free;
+    if (!any_free) return;
+    const double before = numerator_of(form, [&](VertexId v) { return start(v); });
+    p_.lp.end_row(-before, -before);
+  }
   void add_rows(const WeightConstraint& constraint) {
     const LinearForm form = demand_.linear_form(constraint);
     add_row(form, problem_.margin_of(constraint, margin_), elastic_);

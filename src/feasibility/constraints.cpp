@@ -28,6 +28,7 @@ Vec2 from_to(const Mesh& mesh, VertexId p, VertexId v) {
 LinearForm plane_form(const Mesh& mesh, const WeightConstraint& c) {
   const Vec2 pq = from_to(mesh, c.p, c.q);
   if (c.kind == WeightConstraint::Kind::crossing) return crossing_form(c, pq);
+  if (c.kind == WeightConstraint::Kind::equal_crossing) return equal_crossing_form(c, pq, from_to(mesh, c.r, c.s));
   const Vec2 pr = from_to(mesh, c.p, c.r);
   return height_form(c, pq, pr, pr - pq, cross(pq, pr));
 }
@@ -92,7 +93,8 @@ std::string_view name(Constraints constraints) {
 }
 
 std::string_view name(WeightConstraint::Kind kind) {
-  constexpr std::array<std::string_view, 5> kNames = {"height", "crossing", "dual", "height_over_face", "dual_of_face"};
+  constexpr std::array<std::string_view, 6> kNames = {"height",           "crossing",     "dual",
+                                                      "height_over_face", "dual_of_face", "equal_crossing"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -125,13 +127,31 @@ TriangleDemand::TriangleDemand(const Mesh& mesh, Constraints constraints, std::s
   }
 }
 
+TriangleDemand::TriangleDemand(const MetricMesh& pieces, Constraints constraints, std::span<const HalfedgeId> edges)
+    : TriangleDemand(pieces.mesh, constraints, edges) {
+  if (!pieces.is_cut()) return;
+  pieces_ = &pieces;
+  std::vector<std::array<VertexId, 2>> copies;
+  for (const VertexId v : vertices()) {
+    if (pieces.first_copy(v) != v) copies.push_back({pieces.first_copy(v), v});
+  }
+  std::vector<WeightConstraint> equations;
+  for (const auto& [one, other] : seams_of(pieces)) {
+    equations.push_back({WeightConstraint::Kind::equal_crossing, mesh_.origin(one), mesh_.target(one),
+                         mesh_.target(other), mesh_.origin(other)});
+  }
+  seams_ = Seams(n_vertices(), copies, std::move(equations));
+}
+
 void TriangleDemand::add_corners(CellId cell, std::vector<VertexId>& corners) const {
   for (const VertexId v : mesh_.corners(TriangleId(cell.index))) corners.push_back(v);
 }
 
 void TriangleDemand::add_cells_around(VertexId v, std::vector<CellId>& cells) const {
-  if (mesh_.is_isolated(v)) return;
-  for (const HalfedgeId h : mesh_.star(v)) cells.emplace_back(Mesh::triangle(h).index);
+  seams_.for_each_copy(v, [&](VertexId copy) {
+    if (mesh_.is_isolated(copy)) return;
+    for (const HalfedgeId h : mesh_.star(copy)) cells.emplace_back(Mesh::triangle(h).index);
+  });
 }
 
 void TriangleDemand::add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const {
@@ -170,6 +190,15 @@ std::vector<WeightConstraint> TriangleDemand::constraints_of(std::span<const Cel
   return constraints;
 }
 
+std::vector<WeightConstraint> TriangleDemand::equations_of(std::span<const CellId> cells) const {
+  if (seams_.empty()) return {};
+  return seams_.equations_among(vertices_of(*this, cells));
+}
+
+void TriangleDemand::settle(VertexWeights& weights) const {
+  seams_.settle(weights, [this](const WeightConstraint& c) { return linear_form(c); });
+}
+
 LinearForm TriangleDemand::linear_form(const WeightConstraint& constraint) const {
   return temper::linear_form(mesh_, constraint);
 }
@@ -183,6 +212,8 @@ double TriangleDemand::scale_of_polynomial(const WeightConstraint& c) const {
       return 2 * squared_length(pq) * area(c.r);
     case WeightConstraint::Kind::dual:
       return -2 * area(c.r) * area(c.s);
+    case WeightConstraint::Kind::equal_crossing:
+      return 2 * squared_length(pq) * squared_length(from_to(mesh_, c.r, c.s));
     default:
       return 2 * squared_length(pq);
   }
@@ -226,7 +257,7 @@ double TriangleDemand::angle_deg(const WeightConstraint& c) const {
 }
 
 CertificateCheck TriangleDemand::check(const Certificate& certificate) const {
-  return check_certificate(mesh_, certificate);
+  return pieces_ != nullptr ? check_certificate(*pieces_, certificate) : check_certificate(mesh_, certificate);
 }
 
 double TriangleDemand::reach(VertexId p, VertexId q, std::span<const VertexId> corners) const {

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "feasibility/demand.hpp"
+#include "feasibility/seams.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/mesh.hpp"
@@ -58,6 +59,8 @@ namespace temper {
 class TriangleDemand final : public Demand {
  public:
   TriangleDemand(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges = {});
+  /// With the equations of interfaces.
+  TriangleDemand(const MetricMesh& pieces, Constraints constraints, std::span<const HalfedgeId> edges = {});
 
   [[nodiscard]] std::size_t n_vertices() const override { return mesh_.n_vertices(); }
   [[nodiscard]] std::size_t n_cells() const override { return mesh_.n_triangles(); }
@@ -67,6 +70,8 @@ class TriangleDemand final : public Demand {
   void add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const override;
   [[nodiscard]] std::vector<WeightEdge> edges_of(std::span<const CellId> cells) const override;
   [[nodiscard]] std::vector<WeightConstraint> constraints_of(std::span<const CellId> cells, bool rim) const override;
+  [[nodiscard]] std::vector<WeightConstraint> equations_of(std::span<const CellId> cells) const override;
+  void settle(VertexWeights& weights) const override;
   [[nodiscard]] LinearForm linear_form(const WeightConstraint& constraint) const override;
   [[nodiscard]] double scale_of_polynomial(const WeightConstraint& constraint) const override;
   [[nodiscard]] bool is_kept(CellId cell, const VertexWeights& weights) const override;
@@ -88,6 +93,8 @@ class TriangleDemand final : public Demand {
 
   const Mesh& mesh_;
   IdVector<HalfedgeId, std::uint8_t> prescribed_;  ///< none: every edge is
+  const MetricMesh* pieces_ = nullptr;             ///< none: there are no interfaces
+  Seams seams_;
 };
 
 [[nodiscard]] std::vector<CellId> as_cells(std::span<const TriangleId> triangles);

@@ -53,12 +53,23 @@ LinearForm crossing_form(const WeightConstraint& c, const Vector& pq) {
   const double l2 = squared_length(pq);
   return {2, {c.p, c.q}, {0.5 / l2, -0.5 / l2}, 0.5};
 }
+/// The equation of the interface edge pq, which is rs on the other side, from its vectors.
+template <class Vector>
+LinearForm equal_crossing_form(const WeightConstraint& c, const Vector& pq, const Vector& rs) {
+  const double here = 0.5 / squared_length(pq), there = 0.5 / squared_length(rs);
+  return {4, {c.p, c.q, c.r, c.s}, {here, -here, -there, there}, 0};
+}
 /// The height over the edge pq of the triangle pqr, from its edges and twice its area.
 template <class Vector>
 LinearForm height_form(const WeightConstraint& c, const Vector& pq, const Vector& pr, const Vector& qr,
                        double twice_area) {
   const double l2 = squared_length(pq), scale = 0.5 / twice_area;
   return {3, {c.p, c.q, c.r}, {-scale * dot(pq, qr) / l2, scale * dot(pq, pr) / l2, -scale}, scale * dot(pr, qr)};
+}
+
+/// Says whether a constraint is an equation, whose multiplier may have either sign.
+[[nodiscard]] inline bool is_equation(const WeightConstraint& c) {
+  return c.kind == WeightConstraint::Kind::equal_crossing;
 }
 
 /// The crossing of an edge from either end.
@@ -114,7 +125,7 @@ class Demand {
     return all;
   }
   virtual void add_corners(CellId cell, std::vector<VertexId>& corners) const = 0;
-  /// Adds the cells around v, in any order; none if it has none.
+  /// Adds the cells around v, and around its copies on other sides of interfaces, in any order; none if it has none.
   virtual void add_cells_around(VertexId v, std::vector<CellId>& cells) const = 0;
   /// Adds the vertices across the outer edges, or faces, of the cells around v, in any order.
   virtual void add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const = 0;
@@ -126,6 +137,12 @@ class Demand {
   /// counts if one of its two cells is among them; else only if both are.
   [[nodiscard]] virtual std::vector<WeightConstraint> constraints_of(std::span<const CellId> cells,
                                                                      bool rim = false) const = 0;
+  /// The equations of interfaces that have both triangles among these cells: their forms are 0.
+  [[nodiscard]] virtual std::vector<WeightConstraint> equations_of(std::span<const CellId> /*cells*/) const {
+    return {};
+  }
+  /// Takes off the little that these weights violate the equations of interfaces.
+  virtual void settle(VertexWeights& /*weights*/) const {}
   [[nodiscard]] virtual LinearForm linear_form(const WeightConstraint& constraint) const = 0;
   /// N of a constraint (temper/feasibility.hpp) over its value, h/ℓ, d/ℓ or dual length/ℓ.
   [[nodiscard]] virtual double scale_of_polynomial(const WeightConstraint& constraint) const = 0;
@@ -169,6 +186,9 @@ class Demand {
 /// Finds weights for a demand of the kind that the options name.
 [[nodiscard]] WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOptions& options,
                                         ConvexSolver* convex);
+/// The error of a goal that cannot keep the equations of interfaces, if there are any.
+[[nodiscard]] std::optional<InputError> expect_goal_across_interfaces(const WeightOptions& options,
+                                                                      bool has_interfaces);
 /// The error of options whose margin is out of range, or whose goal needs the solver that is null.
 [[nodiscard]] std::optional<InputError> expect_goal(const WeightOptions& options, const ConvexSolver* convex);
 

@@ -148,6 +148,7 @@ class WeightFinder {
     WeightReport r;
     r.asked = asked;
     r.weights = regions_.changed_weights();
+    demand_.settle(r.weights);
     r.programs = regions_.results().size();
     for (const RegionResult& result : regions_.results()) r.largest = std::max(r.largest, result.region.cells.size());
     measure(r);
@@ -272,6 +273,13 @@ WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOp
   return *std::move(best);
 }
 
+std::optional<InputError> expect_goal_across_interfaces(const WeightOptions& options, bool has_interfaces) {
+  if (!has_interfaces || (!is_convex(options.goal) && options.goal != WeightGoal::least)) return std::nullopt;
+  return InputError{ErrorCode::invalid_option, "",
+                    "goal: center, accuracy and least have no equations for interfaces between tensors. Next: goal "
+                    "change or elastic"};
+}
+
 std::optional<InputError> expect_goal(const WeightOptions& options, const ConvexSolver* convex) {
   if ((is_convex(options.goal) || options.goal == WeightGoal::least) && convex == nullptr)
     return InputError{ErrorCode::invalid_option, "",
@@ -294,8 +302,9 @@ std::optional<InputError> expect_goal(const WeightOptions& options, const Convex
                     "margin: expected a number above 0 and below 0.5, found " + std::to_string(options.margin)};
 }
 
-Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options,
-                                    ConvexSolver* convex) {
+namespace {
+
+std::optional<InputError> expect_request(const Mesh& mesh, const WeightOptions& options, const ConvexSolver* convex) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   if (has_quadrilaterals(mesh)) {
     return InputError{ErrorCode::unsupported, "",
@@ -317,8 +326,37 @@ Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const We
                       "constraints: expected well_centered, heights_only or regular, found completely_well_centered: "
                       "it is for tetrahedra. Next: well_centered, which is as much for triangles"};
   }
-  if (auto error = expect_goal(options, convex)) return *std::move(error);
+  return expect_goal(options, convex);
+}
+
+}  // namespace
+
+Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options,
+                                    ConvexSolver* convex) {
+  if (auto error = expect_request(mesh, options, convex)) return *std::move(error);
   return find_weights(TriangleDemand(mesh, options.constraints, options.edges), solver, options, convex);
+}
+
+double largest_gap(const MetricMesh& pieces) {
+  const TriangleDemand demand(pieces, Constraints::well_centered);
+  double gap = 0;
+  for (const WeightConstraint& c : demand.equations_of(all_cells(demand)))
+    gap = std::max(gap, std::abs(value(demand, c, demand.weights())));
+  return gap;
+}
+
+void close_gaps(MetricMesh& pieces) {
+  const TriangleDemand demand(pieces, Constraints::well_centered);
+  VertexWeights weights = demand.weights();
+  demand.settle(weights);
+  for (const VertexId v : pieces.mesh.vertices()) pieces.mesh.set_weight(v, weights[v]);
+}
+
+Expected<WeightReport> find_weights(const MetricMesh& pieces, LpSolver& solver, const WeightOptions& options,
+                                    ConvexSolver* convex) {
+  if (auto error = expect_request(pieces.mesh, options, convex)) return *std::move(error);
+  if (auto error = expect_goal_across_interfaces(options, pieces.is_cut())) return *std::move(error);
+  return find_weights(TriangleDemand(pieces, options.constraints, options.edges), solver, options, convex);
 }
 
 }  // namespace temper

@@ -63,6 +63,15 @@ MarginProgram margin_program(const Demand& demand, std::span<const CellId> cells
     lp.add_entry(t, -1);
     lp.end_row(-form.constant, kUnbounded);
   }
+  for (const WeightConstraint& equation : demand.equations_of(cells)) {
+    const LinearForm form = demand.linear_form(equation);
+    for (int k = 0; k < form.size; ++k) {
+      const std::size_t column = index_of(p.vertices, form.vertices[k]);
+      lp.add_entry(static_cast<int>(column), form.coefficients[k] * p.units[column]);
+    }
+    lp.end_row(-form.constant, -form.constant);
+    p.constraints.push_back(equation);
+  }
   p.problem = lp.problem();
   return p;
 }
@@ -110,7 +119,8 @@ Certificate certify(const Demand& demand, const Bound& bound, double margin) {
     certificate.margin = margin;
     certificate.constraints = demand.constraints();
     for (std::size_t i = 0; i < dual.size(); ++i) {
-      if (!(dual[i] > dropped * largest)) continue;
+      const double size = is_equation(bound.constraints[i]) ? std::abs(dual[i]) : dual[i];
+      if (!(size > dropped * largest)) continue;
       certificate.terms.push_back({bound.constraints[i], dual[i] / demand.scale_of_polynomial(bound.constraints[i])});
     }
     if (demand.check(certificate) == CertificateCheck::proves) return certificate;
@@ -172,7 +182,8 @@ Bound bound_margin(const Demand& demand, std::span<const CellId> cells, LpSolver
   double largest = 0;
   for (const double y : bound.dual) largest = std::max(largest, y);
   for (std::size_t i = 0; i < bound.dual.size(); ++i) {
-    if (bound.dual[i] > 1e-9 * largest) bound.best.tight.push_back(bound.constraints[i]);
+    if (bound.dual[i] > 1e-9 * largest && !is_equation(bound.constraints[i]))
+      bound.best.tight.push_back(bound.constraints[i]);
   }
   return bound;
 }

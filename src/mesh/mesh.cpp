@@ -7,6 +7,10 @@ void Mesh::set_fixed(VertexId v, bool fixed) {
   record(v).flags = fixed ? (record(v).flags | kFixed) : (record(v).flags & ~kFixed);
 }
 
+void Mesh::set_frozen(VertexId v, bool frozen) {
+  record(v).flags = frozen ? (record(v).flags | kFrozen) : (record(v).flags & ~kFrozen);
+}
+
 std::size_t Mesh::n_edges() const {
   std::size_t count = 0;
   for (const HalfedgeId h : halfedges()) count += !is_erased(triangle(h)) && is_edge_representative(h) ? 1 : 0;

@@ -1,11 +1,12 @@
 #include "temper/detail/tensor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "base/text.hpp"
-#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {
@@ -14,18 +15,10 @@ namespace {
 // 10⁴, so mapping there and back loses at most about four of a double's 16 digits.
 constexpr double kFarthestApart = 1e8;
 
-/// The first triangle that is no longer counter-clockwise.
-Expected<void> expect_upright(const Mesh& mesh, const InputNames& names) {
-  for (const TriangleId t : mesh.triangles()) {
-    if (mesh.is_erased(t)) continue;
-    const auto [i, j, k] = mesh.corners(t);
-    if (orient2d(mesh.position(i), mesh.position(j), mesh.position(k)) == Sign::positive) continue;
-    return InputError{ErrorCode::zero_area, names.triangle_where(t.index),
-                      names.triangle(t.index) +
-                          " is so flat that it turns over when its corners are rounded, in the metric of the tensor or "
-                          "back"};
-  }
-  return {};
+/// The components of √(det K) K⁻¹, which are the same for multiples of K, as integers in units of 10⁻¹⁰ of their norm.
+std::array<std::int64_t, 3> plane_of(const Tensor& k) {
+  const double norm = std::hypot(k.xx, k.xy, k.yy), unit = 1e-10;
+  return {std::llround(k.xx / norm / unit), std::llround(k.xy / norm / unit), std::llround(k.yy / norm / unit)};
 }
 
 }  // namespace
@@ -52,26 +45,30 @@ Expected<Metric> Metric::of(const Tensor& k) {
   return metric;
 }
 
-Expected<Mesh> mapped(const Mesh& mesh, const Metric& metric, const InputNames& names) {
-  if (auto error = expect_plane(mesh, "a diffusion tensor")) return *std::move(error);
-  Mesh result = mesh;
-  for (const VertexId v : mesh.vertices()) result.set_position(v, metric.to_metric(mesh.position(v)));
-  if (const auto upright = expect_upright(result, names); !upright) return upright.error();
-  return result;
-}
-
-Expected<Mesh> mapped_back(const Mesh& changed, const Mesh& original, const Metric& metric,
-                           const IdVector<VertexId, VertexId>& vertices) {
-  if (auto error = expect_plane(changed, "a diffusion tensor")) return *std::move(error);
-  Mesh result = changed;
-  for (const VertexId v : changed.vertices()) {
-    const VertexId old = vertices.empty() ? v : vertices[v];
-    const bool known = old.valid() && old.index < original.n_vertices();
-    const bool stayed = known && metric.to_metric(original.position(old)) == changed.position(v);
-    result.set_position(v, stayed ? original.position(old) : metric.from_metric(changed.position(v)));
+Expected<Metrics> Metrics::of(std::span<const Tensor> tensors, const InputNames& names) {
+  std::map<std::array<double, 3>, std::uint32_t> numbers;
+  std::map<std::array<std::int64_t, 3>, std::uint32_t> planes;
+  Metrics metrics;
+  metrics.distinct_.clear();
+  metrics.of_triangle_.reserve(tensors.size());
+  for (std::size_t t = 0; t < tensors.size(); ++t) {
+    const Tensor& k = tensors[t];
+    const auto next = static_cast<std::uint32_t>(metrics.distinct_.size());
+    const auto [at, is_new] = numbers.try_emplace({k.xx, k.xy, k.yy}, next);
+    if (is_new) {
+      auto metric = Metric::of(k);
+      if (!metric)
+        return InputError{metric.error().code, names.triangle_where(t),
+                          names.triangle(t) + ": " + metric.error().message};
+      const std::uint32_t plane = planes.try_emplace(plane_of(k), next).first->second;
+      if (plane != next) metric->to_ = metrics.distinct_[plane].to_, metric->from_ = metrics.distinct_[plane].from_;
+      metrics.distinct_.push_back(*metric);
+    }
+    metrics.of_triangle_.push_back(at->second);
   }
-  if (const auto upright = expect_upright(result, InputNames()); !upright) return upright.error();
-  return result;
+  if (metrics.distinct_.empty()) return Metrics();
+  if (metrics.distinct_.size() == 1) metrics.of_triangle_ = {};
+  return metrics;
 }
 
 }  // namespace temper

@@ -14,6 +14,7 @@
 #include "optimize/stages/driver.hpp"
 #include "optimize/stages/restarts.hpp"
 #include "optimize/step/ties.hpp"
+#include "optimize/tensors.hpp"
 #include "optimize/working/working_copy.hpp"
 
 namespace temper {
@@ -211,48 +212,13 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   return std::move(run.report);
 }
 
-/// Refuses options that only a mesh in its own plane can have.
-std::optional<InputError> check_metric(const OptimizeOptions& options, const OptimizeHooks& hooks) {
-  const auto refused = [](const char* what) {
-    return InputError{ErrorCode::invalid_option, {}, std::string("a tensor cannot go with ") + what};
-  };
-  if (options.size_field) return refused("`size_field`: sizes are lengths of the plane of the mesh");
-  if (options.problem) return refused("a problem, whose coefficients are numbers");
-  if (hooks.tracer) return refused("a trace: its events would be in the plane of the metric");
-  return std::nullopt;
-}
-
-/// Runs in the plane of the tensor's metric, and maps back.
-Expected<OptimizeReport> optimize_in_metric(Mesh& mesh, const OptimizeOptions& options, OptimizeHooks hooks) {
-  if (auto error = check_metric(options, hooks)) return *std::move(error);
-  const Expected<Metric> metric = Metric::of(*options.tensor);
-  if (!metric) return metric.error();
-  Expected<Mesh> there = hooks.names != nullptr ? mapped(mesh, *metric, *hooks.names) : mapped(mesh, *metric);
-  if (!there) return there.error();
-  if (hooks.best_so_far) {
-    hooks.best_so_far = [&, listener = hooks.best_so_far](const auto& best) {
-      listener([&](const auto& use) {
-        best([&](const BestSoFar& found) {
-          if (auto back = mapped_back(found.mesh, mesh, *metric, found.vertices)) use({*back, found.vertices});
-        });
-      });
-    };
-  }
-  OptimizeOptions there_options = options;
-  there_options.tensor.reset();
-  there_options.guard.depth.clear();  // waves do not know that plane
-  Expected<OptimizeReport> report = optimize_here(*there, there_options, hooks, true);
-  if (!report) return report;
-  Expected<Mesh> back = mapped_back(*there, mesh, *metric, report->vertices);
-  if (!back) return back.error();
-  mesh = *std::move(back);
-  return report;
-}
-
 }  // namespace
 
 Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
-  return options.tensor ? optimize_in_metric(mesh, options, hooks) : optimize_here(mesh, options, hooks);
+  if (!options.tensor && options.triangle_tensors.empty()) return optimize_here(mesh, options, hooks);
+  return optimize_in_metrics(mesh, options, hooks, [](Mesh& there, const OptimizeOptions& o, const OptimizeHooks& h) {
+    return optimize_here(there, o, h, true);
+  });
 }
 
 }  // namespace temper

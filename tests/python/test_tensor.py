@@ -179,5 +179,100 @@ def main():
         print("| " + " | ".join(cells) + " |")
 
 
+
+def layered(n=3, ratio=10.0):
+    """A square of tilted layers with turned tensors, and a pressure that is linear in each: its gradients and constants."""
+    points, segments, places = [], [], []
+    heights = np.linspace(0, 1, n + 1)
+    for i, height in enumerate(heights):
+        lift = 0.06 if 0 < i < n else 0.0
+        points += [(0.0, height - lift), (1.0, height + lift)]
+        segments.append((2 * i, 2 * i + 1))
+        if i > 0:
+            segments += [(2 * i - 2, 2 * i), (2 * i - 1, 2 * i + 1)]
+            places.append((0.5, (heights[i - 1] + height) / 2, i, None))
+    outline = temper.Outline(np.array(points), segments, regions=places)
+    along = np.array([1.0, 0.12]) / np.hypot(1, 0.12)
+    across = np.array([-along[1], along[0]])
+    tensors, gradients, constants = {}, [], [0.0]
+    for i in range(n):
+        angle = np.radians(40 + 75 * i)
+        axis = np.array([np.cos(angle), np.sin(angle)])
+        k = np.eye(2) + (ratio - 1) * np.outer(axis, axis)
+        tensors[i + 1] = (k[0, 0], k[0, 1], k[1, 1])
+        gradients.append(0.7 * along + (0.4 - 0.7 * across @ k @ along) / (across @ k @ across) * across)
+        if i > 0:
+            constants.append(constants[-1] + (gradients[-2] - gradients[-1]) @ [0.5, heights[i]])
+    return temper.mesh_outline(outline, 0.12, optimize=False).mesh, tensors, np.array(gradients), np.array(constants)
+
+
+def error_of_linear_pressure(mesh, tensors, gradients, constants):
+    """Two-point fluxes with values at the boundary: the largest error at orthocenters, over the range of the pressure."""
+    d = temper.dec_operators(mesh, tensor=tensors)
+    left, right = d.edges.triangles.T
+    inside = ~d.edges.is_boundary
+    cell = np.where(left >= 0, left, right)
+
+    def pressure(places, triangles):
+        region = mesh.regions[triangles] - 1
+        return (gradients[region] * places).sum(axis=1) + constants[region]
+
+    n, t = mesh.n_triangles, d.transmissibility
+    rows = np.r_[left[inside], right[inside], left[inside], right[inside], cell[~inside]]
+    columns = np.r_[left[inside], right[inside], right[inside], left[inside], cell[~inside]]
+    matrix = np.zeros((n, n))
+    np.add.at(matrix, (rows, columns), np.r_[t[inside], t[inside], -t[inside], -t[inside], t[~inside]])
+    source = np.zeros(n)
+    np.add.at(source, cell[~inside], (t * pressure(d.edges.midpoint, cell))[~inside])
+    exact = pressure(d.orthocenters, np.arange(n))
+    return abs(np.linalg.solve(matrix, source) - exact).max() / np.ptp(exact)
+
+
+@pytest.mark.parametrize("n, ratio", [(2, 2.0), (3, 10.0), (5, 5.0)])
+def test_two_point_fluxes_are_exact_for_a_pressure_that_is_linear_in_each_region(n, ratio):
+    mesh, tensors, *pressure = layered(n, ratio)
+    assert (temper.dec_operators(mesh, tensor=tensors).transmissibility < 0).any()
+    temper.optimize(mesh, tensor=tensors, boundary="split", progress=False)
+    assert error_of_linear_pressure(mesh, tensors, *pressure) < 1e-12
+    weights = mesh.cell_data["corner_weights"]
+    assert weights.shape == (mesh.n_triangles, 3)
+    d = temper.dec_operators(mesh, tensor=tensors)
+    assert (d.star1 > 0).all() and (d.half_transmissibility > 0).all()
+    resistance = np.zeros(len(d.edges))
+    np.add.at(resistance, d.edge_of_halfedge, 1 / d.half_transmissibility)
+    assert np.allclose(1 / resistance, d.transmissibility, rtol=1e-12)
+    assert np.isclose(d.star0.sum(), 1) and np.isclose(d.power_cells().areas.sum(), 1)
+
+
+def test_weights_for_regions_keep_the_equations_of_interfaces():
+    mesh, tensors, *pressure = layered(3, 1.5)
+    report = temper.find_weights(mesh, goal="elastic", tensor=tensors)
+    mesh.cell_data["corner_weights"] = report.corner_weights
+    assert (report.corner_weights != 0).any()
+    assert error_of_linear_pressure(mesh, tensors, *pressure) < 1e-12
+    with pytest.raises(temper.TemperError, match="goal: center, accuracy and least have no equations for interfaces"):
+        temper.find_weights(mesh, goal="least", tensor=tensors)
+
+
+def test_equal_tensors_of_regions_are_one_tensor():
+    mesh, *_ = layered(3)
+    copy = mesh.copy()
+    temper.optimize(mesh, tensor=(1.0, 0.0, 3.0), progress=False)
+    temper.optimize(copy, tensor=dict.fromkeys((1, 2, 3), (1.0, 0.0, 3.0)), progress=False)
+    assert mesh == copy
+    values = np.tile([1.0, 0.0, 3.0], (mesh.n_triangles, 1))
+    assert np.array_equal(temper.dec_operators(mesh, tensor=values).star1, temper.dec_operators(mesh, tensor=(1.0, 0.0, 3.0)).star1)
+
+
+def test_wrong_tensors_of_regions_are_told():
+    mesh, tensors, *_ = layered(2)
+    with pytest.raises(ValueError, match="tensor: expected a value for each of the regions 1, 2; there is none for"):
+        temper.dec_operators(mesh, tensor={1: (1, 0, 1)})
+    with pytest.raises(ValueError, match="tensor: expected kxx, kxy, kyy, or one for each triangle"):
+        temper.dec_operators(mesh, tensor=np.ones((5, 3)))
+    with pytest.raises(temper.TemperError, match="triangle 0: tensor: expected a positive definite tensor"):
+        temper.dec_operators(mesh, tensor=np.zeros((mesh.n_triangles, 3)))
+
+
 if __name__ == "__main__":
     main()

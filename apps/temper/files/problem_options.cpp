@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "files/region_values.hpp"
 #include "options/options.hpp"
 #include "temper/detail/suggest.hpp"
 
@@ -38,22 +39,6 @@ std::vector<double> from_data(const Command& command, const std::string& name, c
                             names.empty() ? "the file has none of one number" : "there are " + join(names)));
 }
 
-/// The tag of a region or of lines (dimension 1), by its number or its name.
-std::int32_t tag_of(const Command& command, const std::string& option, const std::string& word, int dimension,
-                    const std::vector<io::PhysicalName>& all) {
-  std::vector<std::string_view> names;
-  for (const io::PhysicalName& n : all) {
-    if (n.dimension != dimension) continue;
-    if (n.name == word) return n.tag;
-    names.push_back(n.name);
-  }
-  const auto number = parse_number(word);
-  if (number && *number == std::floor(*number) && std::abs(*number) < 2e9) return static_cast<std::int32_t>(*number);
-  refuse_usage(command.name(), fmt::format("{}: expected the number or name of {} before '=', found '{}'{}", option,
-                                           dimension > 1 ? "a region" : "lines on the boundary", word,
-                                           names.empty() ? "" : "; names are " + join(names)));
-}
-
 /// "clay=1e-9" as the name and the number.
 std::pair<std::string, double> name_and_value(const Command& command, const std::string& option,
                                               const std::string& entry) {
@@ -64,45 +49,33 @@ std::pair<std::string, double> name_and_value(const Command& command, const std:
 }
 
 template <class Subject>
-std::map<std::int32_t, double> values_of_regions(const Command& command, const std::string& text,
-                                                 const InputOf<Subject>& input) {
+std::vector<double> from_regions(const Command& command, const std::string& text, const InputOf<Subject>& input) {
   std::map<std::int32_t, double> values;
   for (const std::string& entry : separated(text)) {
     const auto [name, value] = name_and_value(command, "--coefficient", entry);
-    const std::int32_t region = tag_of(command, "--coefficient", name, Subject::dimension, input.file.names);
-    if (!values.emplace(region, value).second) {
+    const std::int32_t region = tag_of("--coefficient", name, Subject::dimension, input);
+    if (!values.emplace(region, value).second)
       refuse_usage(command.name(), fmt::format("--coefficient: region {} has two values", region));
-    }
   }
-  return values;
-}
-
-template <class Subject>
-std::vector<double> from_regions(const Command& command, const std::string& text, const InputOf<Subject>& input) {
-  const std::map<std::int32_t, double> values = values_of_regions(command, text, input);
-  std::map<std::int32_t, std::size_t> elements;
-  std::vector<double> coefficient;
-  std::string missing;
-  for (const auto t : elements_of(input.mesh())) {
-    const std::int32_t region = input.mesh().region(t);
-    const auto found = values.find(region);
-    if (++elements[region] == 1 && found == values.end())
-      missing += fmt::format("{}{}", missing.empty() ? "" : ", ", region);
-    coefficient.push_back(found == values.end() ? 0 : found->second);
-  }
-  if (!missing.empty()) {
-    throw Failure(Exit::bad_usage, fmt::format("{}: {}: --coefficient: there is no value for region {}", command.name(),
-                                               input.path, missing));
-  }
-  for (const auto& [region, value] : values) {
-    if (elements.count(region) != 0) continue;
-    throw Failure(Exit::bad_usage,
-                  fmt::format("{}: {}: --coefficient: the mesh has no region {}", command.name(), input.path, region));
-  }
-  return coefficient;
+  return at_elements("--coefficient", values, input);
 }
 
 }  // namespace
+
+std::int32_t tag_of(const std::string& option, const std::string& word, int dimension, const std::string& path,
+                    const std::vector<io::PhysicalName>& all) {
+  std::vector<std::string_view> names;
+  for (const io::PhysicalName& n : all) {
+    if (n.dimension != dimension) continue;
+    if (n.name == word) return n.tag;
+    names.push_back(n.name);
+  }
+  const auto number = parse_number(word);
+  if (number && *number == std::floor(*number) && std::abs(*number) < 2e9) return static_cast<std::int32_t>(*number);
+  throw Failure(Exit::bad_usage, fmt::format("{}: {}: expected the number or name of {} before '=', found '{}'{}", path,
+                                             option, dimension > 1 ? "a region" : "lines on the boundary", word,
+                                             names.empty() ? "" : "; names are " + join(names)));
+}
 
 void add_coefficient(Command& command, std::string& target) {
   add_text(command, "--coefficient", "NAME", target,
@@ -161,7 +134,7 @@ void add_boundary_values(const Command& command, bool is_flux, const std::string
         if (mesh.is_boundary(h)) part.edges.push_back({mesh.origin(h), mesh.target(h)});
       }
     } else {
-      const std::int32_t tag = tag_of(command, option, name, 1, input.file.names);
+      const std::int32_t tag = tag_of(option, name, 1, input);
       for (std::size_t i = 0; i < input.file.lines.size(); ++i) {
         if (input.file.lines.tags[i] != tag) continue;
         const auto& [from, to] = input.file.lines[i];

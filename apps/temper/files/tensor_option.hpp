@@ -1,8 +1,10 @@
-// A diffusion tensor: a verb then measures in its metric.
+// Diffusion tensors: a verb then measures in their metrics.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "files/input.hpp"
 #include "help/command.hpp"
@@ -10,16 +12,39 @@
 
 namespace temper::app {
 
+/// The tensors that --tensor names: one for all, one for each region, or data of the cells.
+struct TensorOption {
+  std::optional<Metric> metric;                            ///< of one tensor for all
+  std::vector<std::pair<std::string, Tensor>> of_regions;  ///< by number or name
+  std::vector<std::string> data;  ///< names: of kxx, kxy, kyy; of k11, k22 and an angle; or of one array
+
+  [[nodiscard]] bool given() const { return metric || !of_regions.empty() || !data.empty(); }
+};
+
 /// Adds --tensor; `what` is its purpose.
-void add_tensor(Command& command, std::optional<Metric>& metric, const std::string& what);
+void add_tensor(Command& command, TensorOption& tensor, const std::string& what);
 
 /// Failure when an option for the plane of the file was given, too.
-void expect_without(const Command& command, const std::optional<Metric>& metric, const std::string& option);
+void expect_without(const Command& command, const TensorOption& tensor, const std::string& option);
 
-/// A mesh of that input, in the plane of the metric.
-[[nodiscard]] Mesh in_metric(const Mesh& mesh, const Metric& metric, const Input& input);
+/// The tensor of each triangle of the input; none if all have one. Failure if a region or data are missing.
+[[nodiscard]] std::vector<Tensor> tensors_of(const TensorOption& tensor, const Input& input);
 
-/// Puts the mesh of the input into the plane of the metric, if there is one. Returns the original mesh in that case.
-std::optional<Mesh> take_to_metric(Input& input, const std::optional<Metric>& metric);
+/// A mesh of that input in the planes of its metrics. `tensors` and `corner_weights` are of its triangles and corners,
+/// if there are several tensors.
+[[nodiscard]] MetricMesh in_metric(const Mesh& mesh, const TensorOption& tensor, const std::vector<Tensor>& tensors,
+                                   const std::vector<double>& corner_weights, const Input& input);
+
+/// Lets names and points of the input count the copies of vertices of interfaces, too.
+void name_copies(Input& input, const MetricMesh& pieces);
+
+/// A mesh in its own plane, and in the planes of its metrics.
+struct MetricView {
+  Mesh plain;
+  MetricMesh pieces;
+};
+/// Puts the mesh of the input into the planes of its metrics, if there are tensors, and names copies. Warns if weights
+/// do not keep the equations of interfaces.
+std::optional<MetricView> take_to_metric(Input& input, const TensorOption& tensor);
 
 }  // namespace temper::app

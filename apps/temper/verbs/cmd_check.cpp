@@ -49,7 +49,7 @@ struct CheckSettings {
   std::optional<LengthParameter> gamma, h0;
   std::uint64_t worst = 5, threads = 0;
   bool json = false, details = false;
-  std::optional<Metric> metric;
+  TensorOption tensor;
 };
 
 void add_options(Command& command, CheckSettings& s) {
@@ -76,7 +76,7 @@ void add_options(Command& command, CheckSettings& s) {
       "Distance below zero to which E_BHs lets h fall, a multiple of each edge's length, or a length. It "
       "is -h0 of the paper. (default: 0)")
       .cells = CellKinds::triangles;
-  add_tensor(command, s.metric, "Take all measures");
+  add_tensor(command, s.tensor, "Take all measures");
   add_threads(command, s.threads);
   command.group("Requirements");
   add_requirements(command, s.require);
@@ -89,6 +89,19 @@ void add_options(Command& command, CheckSettings& s) {
                     "  temper check in.vtu --for vertex\n"
                     "  temper check in.vtu in.vtu --require inverted=0\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
+}
+
+/// Counts and places of a mesh in its own plane, for measures of its pieces.
+void as_in_plane(Quality& measured, const MetricView& view) {
+  const MetricMesh& pieces = view.pieces;
+  for (WorstTriangle& worst : measured.worst) worst.at = pieces.metric(worst.triangle).from_metric(worst.at);
+  const auto& [ends, at] = measured.min_coefficient_place;
+  if (ends[0].valid() && ends[0].index < pieces.mesh.n_vertices() && !pieces.mesh.is_isolated(ends[0]))
+    measured.min_coefficient_place.at = pieces.metric(Mesh::triangle(pieces.mesh.outgoing(ends[0]))).from_metric(at);
+  const std::size_t seams = seams_of(pieces).size();
+  measured.vertices = view.plain.n_vertices();
+  measured.edges -= seams;
+  measured.boundary_edges -= 2 * seams;
 }
 
 class Checks {
@@ -108,7 +121,7 @@ class Checks {
     if (!s_.write.empty() && s_.inputs.size() > 1) {
       refuse_usage("check", fmt::format("--write: expected one mesh, found {}", s_.inputs.size()));
     }
-    if (s_.metric && !files_.page.empty())
+    if (s_.tensor.given() && !files_.page.empty())
       refuse_usage("check", "--tensor: the page of --write is in the plane of the mesh; expected another output");
     outputs_.expect(files_, s_.inputs);
   }
@@ -156,13 +169,9 @@ class Checks {
     } else {
       expect_plane(input.mesh(), input.path, "--write " + files_.page);
     }
-    take_to_metric(input, s_.metric);
+    const std::optional<MetricView> view = take_to_metric(input, s_.tensor);
     Quality measured = quality_in_place(input.loaded.mesh, options_);
-    for (WorstTriangle& worst : measured.worst) {
-      if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
-    }
-    EdgePlace& least = measured.min_coefficient_place;
-    if (s_.metric) least.at = s_.metric->from_metric(least.at);
+    if (view) as_in_plane(measured, *view);
     return measured;
   }
   [[nodiscard]] tets::Quality measure(TetInput& input) const {

@@ -35,7 +35,7 @@ struct DrawSettings {
   Heights heights;
   std::string input, before, output, color, cut;
   DrawOptions options;
-  std::optional<Metric> metric;
+  TensorOption tensor;
   std::optional<CellsOf> cells;
   bool no_primal = false, no_dual = false, no_rings = false;
 };
@@ -80,7 +80,7 @@ void add_options(Command& command, DrawSettings& s) {
       command, "--cells", kCellsOf, [&s](CellsOf value) { s.cells = value; },
       "Cells to fill by their regions, instead of triangles by their margin: power cells or triangles. Of the edges, "
       "only boundaries and lines are drawn. Lines on faces of power cells are thick, and have their names.");
-  add_tensor(command, s.metric, "Draw meshes");
+  add_tensor(command, s.tensor, "Draw meshes");
   command.add_flag("--numbers", s.options.vertex_numbers, "Number the vertices, from 0.");
   add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "Factor on the radius of weight circles.");
   add_numbers(
@@ -224,13 +224,13 @@ tets::Plane plane_of(const DrawSettings& s, const tets::TetMesh& mesh) {
 std::string picture(const DrawSettings& s, Input& input, Input* before) {
   check_view(s.options, input);
   DrawOptions options = s.options;
-  take_to_metric(input, s.metric);
+  take_to_metric(input, s.tensor);
   if (before == nullptr) {
     set_colors(options, s.color, {&input});
     set_cells(options, s.cells, {&input});
     return draw_svg(input.mesh(), options);
   }
-  take_to_metric(*before, s.metric);
+  take_to_metric(*before, s.tensor);
   check_same_space(*before, input);
   set_colors(options, s.color, {before, &input});
   set_cells(options, s.cells, {before, &input});
@@ -271,7 +271,7 @@ Exit run_draw(const Arguments& arguments) {
   s.options.near_coincident = !s.no_rings;
   check_zoom(s.options);
   if (s.cells && command.was_given("--color")) refuse_usage("draw", "--color and --cells: expected one of the two");
-  expect_without(command, s.metric, "--zoom");
+  expect_without(command, s.tensor, "--zoom");
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 

@@ -29,7 +29,7 @@ struct ErrorSettings {
   int refine = 0;
   std::uint64_t threads = 0;
   bool condition = false, json = false;
-  std::optional<Metric> metric;
+  TensorOption tensor;
 };
 
 // Relative to the size of the domain: the rounding of coordinates by text formats.
@@ -74,7 +74,7 @@ void add_options(Command& command, ErrorSettings& s) {
       command, "--refine", s.refine, 0,
       "Number of refinements, each of which cuts every triangle into four. The report then has orders of convergence.")
       .cells = CellKinds::triangles;
-  add_tensor(command, s.metric, "Take solutions and errors");
+  add_tensor(command, s.tensor, "Take solutions and errors");
   command.add_flag("--condition", s.condition, "Also estimate the condition numbers of both matrices.");
   add_threads(command, s.threads);
   command.group("Your own problem, -div(K grad u) = f");
@@ -141,7 +141,7 @@ MeasureErrorsOptions without_orders(MeasureErrorsOptions options) {
 tets::MeasureErrorsOptions without_orders(tets::MeasureErrorsOptions options) { return options; }
 
 /// The meshes as the measures see them.
-void take_metric(const ErrorSettings& s, Input& input) { take_to_metric(input, s.metric); }
+void take_metric(const ErrorSettings& s, Input& input) { take_to_metric(input, s.tensor); }
 void take_metric(const ErrorSettings& /*s*/, const TetInput& /*input*/) {}
 
 void write_edges(const ErrorSettings& s, const ErrorRecord<Triangles>& record, const Input& input, Outputs& outputs) {

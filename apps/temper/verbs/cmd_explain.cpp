@@ -8,6 +8,7 @@
 
 #include "console.hpp"
 #include "files/input.hpp"
+#include "files/tensor_option.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/quality_report.hpp"
@@ -27,6 +28,7 @@ struct ExplainSettings {
   std::uint64_t limit = 10;
   std::uint64_t whole = ExplainOptions().whole;
   bool json = false;
+  TensorOption tensor;
 };
 
 void add_options(Command& command, ExplainSettings& s) {
@@ -35,6 +37,7 @@ void add_options(Command& command, ExplainSettings& s) {
   add_projection(command, s.projection);
   add_heights(command, s.heights);
   add_target(command, s.target, false);
+  add_tensor(command, s.tensor, "Explain triangles");
   command.add_flag("--json", s.json, "Print all reasons as JSON, with vertices and elements counted from 0.");
   add_count(command, "--limit", s.limit, 0,
             "Largest number of conflicts to print, and of places for which weights exist. Cures are searched for these "
@@ -70,13 +73,18 @@ class Counter {
   bool enabled_ = error_is_terminal();
 };
 
-tets::Explanation explained(const ExplainSettings& s, const TetInput& input) {
+tets::Explanation explained(const ExplainSettings& s, const TetInput& input, const std::optional<MetricView>&) {
   tets::ExplainOptions options = {.whole = s.whole};
   if (!s.json) options.reasons = s.limit;
   return or_fail(explain(input.mesh(), *clp_solver(), options));
 }
 
-Explanation explained(const ExplainSettings& s, const Input& input) {
+/// A place that was measured in the metric of a triangle, in the file.
+Vec2 place_of(const Input& input, const std::optional<MetricView>& view, TriangleId t, Vec2 at) {
+  return place_in_file(input.file, view ? view->pieces.metric(t).from_metric(at) : at);
+}
+
+Explanation explained(const ExplainSettings& s, const Input& input, const std::optional<MetricView>& view) {
   const auto solver = clp_solver();
   Counter counter;
   ExplainOptions options;
@@ -85,8 +93,9 @@ Explanation explained(const ExplainSettings& s, const Input& input) {
   options.progress = [&counter](std::size_t done, std::size_t all) { return counter.show(done, all); };
   Explanation explanation = or_fail(explain(input.mesh(), *solver, options));
   for (Reason& reason : explanation.reasons) {
-    reason.at = place_in_file(input.file, reason.at);
-    for (Cure& cure : reason.cures) cure.at = place_in_file(input.file, cure.at);
+    const TriangleId t = reason.bad.front();
+    reason.at = place_of(input, view, t, reason.at);
+    for (Cure& cure : reason.cures) cure.at = place_of(input, view, t, cure.at);
   }
   counter.clear();
   return explanation;
@@ -94,29 +103,34 @@ Explanation explained(const ExplainSettings& s, const Input& input) {
 
 /// The violations of a criterion of duals, with places of the file.
 template <class AnyInput>
-DualExplanation explained_duals(const ExplainSettings& s, const AnyInput& input, Criterion criterion) {
+DualExplanation explained_duals(const ExplainSettings& s, const AnyInput& input, Criterion criterion,
+                                const std::optional<MetricView>& view) {
   const std::size_t most = s.json ? static_cast<std::size_t>(-1) : s.limit;
   DualExplanation explanation = explain_duals(input.mesh(), criterion, most);
   if constexpr (std::is_same_v<AnyInput, Input>) {
     for (DualReason& reason : explanation.reasons) {
-      const Vec2 at = place_in_file(input.file, {reason.at.x, reason.at.y});
+      const TriangleId t = Mesh::triangle(input.mesh().outgoing(reason.vertices.front()));
+      const Vec2 at = place_of(input, view, t, {reason.at.x, reason.at.y});
       reason.at = {at.x, at.y, 0};
     }
   }
   return explanation;
 }
 
+std::optional<MetricView> view_of(const ExplainSettings& s, Input& input) { return take_to_metric(input, s.tensor); }
+std::optional<MetricView> view_of(const ExplainSettings& /*s*/, const TetInput& /*input*/) { return {}; }
+
 template <class AnyInput>
-void print_explanation(const ExplainSettings& s, const AnyInput& input) {
+void print_explanation(const ExplainSettings& s, const AnyInput& input, const std::optional<MetricView>& view) {
   if (const Criterion criterion = criterion_of_target(s.target); criterion != Criterion::well_centered) {
-    const DualExplanation explanation = explained_duals(s, input, criterion);
+    const DualExplanation explanation = explained_duals(s, input, criterion, view);
     if (s.json) return print_data(explanation_json(explanation, input.points));
     print(explanation_text(explanation, input, text_style()));
     if (explanation.violations > 0 && !io::is_stream(input.path))
       print(fmt::format("Next: {} -o OUT --for {}\n", command_line("optimize", input.path, s.projection), s.target));
     return;
   }
-  const auto explanation = explained(s, input);
+  const auto explanation = explained(s, input, view);
   s.json ? print_data(explanation_json(explanation, input))
          : print(explanation_text(explanation, input, s.limit, text_style()));
 }
@@ -139,12 +153,12 @@ Exit run_explain(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
 
-  const AnyInput any = read_any(command, s.input, {s.projection, {}, nullptr, s.heights});
+  AnyInput any = read_any(command, s.input, {s.projection, {}, nullptr, s.heights});
   std::visit(
-      [&]<class Subject>(const InputOf<Subject>& input) {
+      [&]<class Subject>(InputOf<Subject>& input) {
         expect_target_for("explain", input.path, s.target, Subject::cells);
         print_warnings(input.warnings());
-        print_explanation(s, input);
+        print_explanation(s, input, view_of(s, input));
       },
       any);
   return Exit::done;

@@ -39,7 +39,7 @@ struct DecSettings {
   double pinch_out = 0;
   CellsOf cells = CellsOf::vertices;
   std::string barriers;
-  std::optional<Metric> metric;
+  TensorOption tensor;
   std::uint64_t threads = 0;
   bool json = false;
 };
@@ -57,7 +57,7 @@ void add_options(Command& command, DecSettings& s) {
       .defaults_to([&s] { return s.formats; });
   command.group("Coefficients");
   add_coefficient(command, s.coefficient);
-  add_tensor(command, s.metric, "Make stars, fluxes, orthocenters and power cells");
+  add_tensor(command, s.tensor, "Make stars, fluxes, orthocenters and power cells");
   command.group("Layers");
   add_text(command, "--layers", "FILE", s.layers,
            "CSV file with the heights of the surfaces between layers, for columns of cells below the mesh. Its title "
@@ -200,12 +200,12 @@ void warn_of_halves(const Input& input) {
 void write(const Command& command, const DecSettings& s, Input& input, const std::vector<io::DecFormat>& formats,
            Executor* executor) {
   if (s.layers.empty()) io::release_geometry(input.file, input.loaded);  // the mesh has it
-  const std::optional<Mesh> plain = take_to_metric(input, s.metric);
+  const std::optional<MetricView> view = take_to_metric(input, s.tensor);
   DecComplex complex = with_k(command, s, input, dec_operators(input.mesh()));
   PowerCells cells = power_cells(input.mesh(), complex);
-  if (s.metric) {
-    complex = mapped_back(std::move(complex), *s.metric);
-    cells = mapped_back(std::move(cells), *s.metric);
+  if (view) {
+    complex = mapped_back(std::move(complex), view->pieces, view->plain);
+    cells = mapped_back(std::move(cells), view->pieces);
   }
   const DecSummary summary = summarize(input.mesh(), complex);
   const std::optional<Columns> under_layers = make_columns(s, input, complex, cells);
@@ -221,7 +221,7 @@ void write(const Command& command, const DecSettings& s, Input& input, const std
   if (!s.barriers.empty()) options.barriers = barriers;
   options.names = input.names.get();
   options.executor = executor;
-  record.files = or_fail(io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells, options));
+  record.files = or_fail(io::write_dec(s.output, view ? view->plain : input.mesh(), complex, cells, options));
   s.json ? print_data(dec_json(record)) : print(dec_text(record));
 }
 
@@ -237,7 +237,7 @@ Exit run_operators(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   const std::vector<io::DecFormat> formats = parse_formats(s.formats);
-  expect_without(command, s.metric, "--layers");
+  expect_without(command, s.tensor, "--layers");
   const io::DecKind of_triangles = s.layers.empty() ? io::DecKind::triangles : io::DecKind::columns;
   check_folder(s, formats, of_triangles);
 

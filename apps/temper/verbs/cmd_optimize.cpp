@@ -53,6 +53,7 @@ void write_all(const Command& command, const OptimizeSettings& s, InputOf<Subjec
   const std::size_t known = input.file.warnings.size();
   results.data =
       io::update(input.file, input.loaded, *results.improved, parts_of(results.report), {s.rules, files.threads});
+  add_corner_weights(results.report, input.file);
   if (s.files.page.empty()) release_mesh(input, results);
   warn(results, std::span(input.file.warnings).subspan(known));
   warn(results, outputs.write_mesh(s.output, input.file, files.threads));
@@ -90,7 +91,7 @@ void print_result(const OptimizeSettings& s, const RunResults<Subject>& results,
   const std::size_t bad = violations(results.after, criterion);
   if (criterion != Criterion::well_centered) print(count_of_duals(bad, criterion) + "\n");
   print(fmt::format("{}\nwrote {}\n", end, fmt::join(outputs.written(), ", ")));
-  if (!s.metric && bad > 0) print(next_step(s.output.path, s.projection, criterion, s.target));
+  if (!s.tensor.given() && bad > 0) print(next_step(s.output.path, s.projection, criterion, s.target));
 }
 
 template <class Subject>
@@ -130,13 +131,13 @@ void leave_outputs_to_first_rank(OptimizeSettings& s) {
 Exit run_command(Command& command, OptimizeSettings& settings) {
   take_input(command, settings);
   settle_options(command, settings);
-  expect_without(command, settings.metric, "--size");
-  expect_without(command, settings.metric, "--dirichlet");
+  expect_without(command, settings.tensor, "--size");
+  expect_without(command, settings.tensor, "--dirichlet");
   expect_complete(command, settings.problem);
-  if (settings.metric && !(settings.files.page.empty() && settings.files.trace.empty()))
+  if (settings.tensor.given() && !(settings.files.page.empty() && settings.files.trace.empty()))
     refuse_usage("optimize",
                  "--tensor: the page and the trace of --write are in the plane of the mesh; expected neither");
-  if (settings.metric) settings.output.options.triangle_quality = false;  // which is of the plane
+  if (settings.tensor.given()) settings.output.options.triangle_quality = false;  // which is of the plane
   settings.requirement_lists = RequirementLists("optimize", settings.require);
   settings.traced = !settings.files.trace.empty();
   if (!is_first_rank()) leave_outputs_to_first_rank(settings);

@@ -14,6 +14,7 @@
 #include "console.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
+#include "files/tensor_option.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
@@ -62,6 +63,7 @@ struct WeightsSettings {
   Connectivity connectivity = Connectivity::fixed;
   std::uint64_t whole = WeightOptions().whole, programs = ConnectivityOptions().programs;
   double time_limit = 60;
+  TensorOption tensor;
   bool json = false, zero = false;
 };
 
@@ -184,6 +186,7 @@ void add_options(Command& command, WeightsSettings& s) {
   add_files(command, s);
   add_goal(command, s);
   add_connectivity(command, s);
+  add_tensor(command, s.tensor, "Find weights");
   command.group("Help");
   command.add_help(
       {"IN -o OUT [options]",
@@ -207,7 +210,8 @@ void add_options(Command& command, WeightsSettings& s) {
 /// What a scheme needs, unless other options say so. --mode accuracy takes the factors of the scheme alone.
 void follow_scheme(const Command& command, WeightsSettings& s) {
   if (!command.was_given("--for") || s.options.goal == WeightGoal::accuracy) return;
-  if (!command.was_given("--mode")) s.options.goal = WeightGoal::least;
+  const bool one_plane = s.tensor.of_regions.empty() && s.tensor.data.empty();
+  if (!command.was_given("--mode")) s.options.goal = one_plane ? WeightGoal::least : WeightGoal::change;
   if (!command.was_given("--constraints"))
     s.options.constraints =
         std::ranges::find(all_constraints(), name(criterion_of(s.scheme)), &ConstraintsInfo::name)->constraints;
@@ -235,6 +239,9 @@ void check_usage(const Command& command, const WeightsSettings& s) {
     if (s.output.path.empty()) fail("--output is missing. Next: -o OUT");
   } else if (s.output.path.empty() && s.options.goal != WeightGoal::margin) {
     fail("--output is missing. Next: -o OUT, or --mode margin");
+  }
+  for (const char* option : {"--check-certificate", "--certificate", "--zero", "--connectivity", "--edges"}) {
+    if (s.tensor.given() && command.was_given(option)) conflict("--tensor", option);
   }
   const bool regular = s.options.constraints == Constraints::regular, search = s.connectivity == Connectivity::search;
   if (!regular && command.was_given("--edges")) lacks("--edges", "--constraints regular");
@@ -402,22 +409,48 @@ Exit end(const WeightsSettings& s, WeightsRecord& record, Outputs& outputs) {
   return record.search && record.search->end == SearchEnd::stopped ? Exit::stopped_early : Exit::infeasible;
 }
 
+/// The record of a search for weights of `mesh`.
+template <class Subject>
+WeightsRecord record_of(const WeightsSettings& s, const InputOf<Subject>& input, const typename Subject::Mesh& mesh,
+                        const WeightReport& report, const ConnectivityReport* search) {
+  return {kModes[static_cast<std::size_t>(s.options.goal)].name,
+          s.options,
+          row_of(Subject::constraints(), s.options.constraints),
+          report,
+          input.path,
+          mesh_size(mesh),
+          space_of(mesh),
+          input.points,
+          [&](const WeightConstraint& c) { return constraint_text(c, input, mesh); },
+          triangles_of(mesh),
+          search};
+}
+
+/// Finds weights in the planes of tensors.
+Exit find_in_metric(const WeightsSettings& s, Input& input, Outputs& outputs) {
+  MetricMesh pieces = in_metric(input.mesh(), s.tensor, tensors_of(s.tensor, input),
+                                io::corner_weights_of(input.file, input.loaded), input);
+  const WeightReport report = or_fail(find_weights(pieces, *clp_solver(), s.options, interior_point_solver().get()));
+  Input named = input;
+  name_copies(named, pieces);
+  WeightsRecord record = record_of(s, named, pieces.mesh, report, nullptr);
+  if (report.solved && !s.output.path.empty()) {
+    pieces.mesh = with_weights(std::move(pieces.mesh), report.weights);
+    const WholeMesh whole = or_fail(mapped_back(pieces, input.mesh(), pieces));
+    io::update(input.file, input.loaded, whole.mesh);
+    io::set_corner_weights(input.file, whole.corner_weights);
+    print_warnings(outputs.write_mesh(s.output, input.file));
+    record.output = s.output.path;
+  }
+  return end(s, record, outputs);
+}
+
 /// Finds weights of `mesh`. The mesh comes from the input, or from `search`, which is null without a search.
 template <class Subject>
 Exit find(const WeightsSettings& s, InputOf<Subject>& input, const typename Subject::Mesh& mesh,
           const ConnectivityReport* search, Outputs& outputs) {
   const WeightReport report = or_fail(find_weights(mesh, *clp_solver(), s.options, interior_point_solver().get()));
-  WeightsRecord record = {kModes[static_cast<std::size_t>(s.options.goal)].name,
-                          s.options,
-                          row_of(Subject::constraints(), s.options.constraints),
-                          report,
-                          input.path,
-                          mesh_size(mesh),
-                          space_of(mesh),
-                          input.points,
-                          [&](const WeightConstraint& c) { return constraint_text(c, input, mesh); },
-                          triangles_of(mesh),
-                          search};
+  WeightsRecord record = record_of(s, input, mesh, report, search);
   if (report.solved && !s.output.path.empty()) {
     write_weighted(s, input, with_weights(mesh, report.weights), outputs);
     record.output = s.output.path;
@@ -438,6 +471,7 @@ void refuse_faces(const Input& input) {
 
 Exit run(WeightsSettings& s, Input& input, Outputs& outputs) {
   if (!s.output.path.empty()) refuse_faces(input);
+  if (s.tensor.given()) return find_in_metric(s, input, outputs);
   if (s.zero) return drop(s, input, outputs);
   if (s.options.constraints == Constraints::regular) s.options.edges = prescribed_edges(s.edges, input);
   const std::optional<ConnectivityReport> search = searched(s, input, *clp_solver());

@@ -114,7 +114,7 @@ void add_rare(Command& command, OptimizeSettings& s) {
 #endif
   add_projection(command, s.projection);
   add_heights(command, s.heights);
-  add_tensor(command, s.metric, "Make meshes well-centered");
+  add_tensor(command, s.tensor, "Make meshes well-centered");
   add_problem(command, s.problem,
               "Needs --for vertex or --for cell. The run then lowers the error of this problem, -div(K grad u) = f. "
               "Without --dirichlet it lowers the mean error of many smooth solutions with K = 1. Not with --tensor.");

@@ -42,7 +42,7 @@ struct OptimizeSettings {
   RequirementLists requirement_lists;     ///< of `require`
   std::vector<Requirement> requirements;  ///< the list for the kind of the mesh
   std::string size, size_data;
-  std::optional<Metric> metric;  ///< of the diffusion tensor
+  TensorOption tensor;
   ProblemOptions problem;
   std::vector<std::string> point_data;
   io::DataRules rules;  ///< of point_data

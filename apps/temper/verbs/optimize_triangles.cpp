@@ -40,7 +40,9 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
   hooks.solvers = solvers();
   hooks.tracer = std::move(tracer);
   OptimizeOptions options = s.options;
-  if (s.metric) options.tensor = s.metric->tensor();
+  if (s.tensor.metric) options.tensor = s.tensor.metric->tensor();
+  options.triangle_tensors = tensors_of(s.tensor, input);
+  if (!options.triangle_tensors.empty()) options.corner_weights = io::corner_weights_of(input.file, input.loaded);
   Expected<OptimizeReport> report = optimize(mesh, options, hooks);
   if (!report) throw as_failure(spell_options(report.error()));
   for (std::string& note : report->notes) note = spell_options(note);
@@ -132,18 +134,18 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
   results.improved = &mesh;
   results.original = &results.second;
   const Mesh* seen = &mesh;
-  std::optional<Mesh> there;
-  const auto look_at = [&] {
-    if (s.metric) seen = &there.emplace(in_metric(mesh, *s.metric, input));
+  std::optional<MetricMesh> there;
+  const auto look_at = [&](const std::vector<Tensor>& tensors, const std::vector<double>& corner_weights) {
+    if (s.tensor.given()) seen = &there.emplace(in_metric(mesh, s.tensor, tensors, corner_weights, input)).mesh;
   };
-  look_at();
+  look_at(tensors_of(s.tensor, input), io::corner_weights_of(input.file, input.loaded));
   if (!s.files.picture.empty() || !s.files.page.empty()) results.second = *seen;
   const bool shown = !s.files.report.empty() || !s.files.page.empty() || !s.files.picture.empty();
   measuring.brief = !shown && !s.details && s.requirements.empty();
   const bool measured = !is_quiet() || shown || !s.requirements.empty();  // else nobody would see it
   // The run looks at the mesh in an order for which no copy is needed. It has no names for the worst triangles.
   Viewer viewer;
-  if (measured && measuring.brief && !s.metric) {
+  if (measured && measuring.brief && !s.tensor.given()) {
     viewer = [&, first = true](const Mesh& now) mutable {
       results.after = quality(now, measuring);
       if (std::exchange(first, false)) results.before = results.after;
@@ -165,7 +167,7 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
   });
 #endif
   results.report = run_library(s, input, mesh, files.threads, tracer, viewer, !measuring.brief);
-  look_at();
+  look_at(results.report.triangle_tensors, results.report.corner_weights);
 #ifdef TEMPER_WITH_ERRORS
   if (errors) error_result(*errors, *seen, results);
 #endif

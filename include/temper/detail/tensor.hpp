@@ -1,4 +1,4 @@
-// A constant diffusion tensor K, and the plane in which it becomes a number.
+// Diffusion tensors K, and the planes in which they become numbers.
 //
 // Two-point fluxes of −div(K ∇u) = f need dual edges at right angles to edges in the metric M = K⁻¹: e · K⁻¹ e* = 0.
 // With y = B x and B = (det K)^¼ K^−½, this is a right angle of the plane, and
@@ -8,7 +8,25 @@
 // So a mesh is mapped to this plane, improved and measured there without any tensor, and mapped back. B changes no
 // area. The stars of vertices and triangles do not change, and ★1 and fluxes only need the factor √(det K). Weights
 // belong to the metric: mapping does not change them.
+//
+// Rock has another tensor in each layer. Then each triangle goes to the plane of its own tensor, and the mesh is cut
+// along interfaces, where the plane changes. A vertex of an interface has a copy on each side, with its own weight:
+//
+//      region 0               region 0, in its plane:    a ---- b ---- c
+//   a ---- b ---- c     →                                                   one copy of b and c for each side
+//      region 1               region 1, in its plane:    a'--- b' ---- c'
+//
+// The dual edge through bc has one crossing with the interface if the weighted midpoint divides bc and b'c' in one
+// ratio. So weights must keep one linear equation for each edge of the interface,
+//
+//     (w_b − w_c)/|bc|² = (w_b' − w_c')/|b'c'|²,
+//
+// with the lengths of either plane. Constant weights on each side of an interface always keep it.
 #pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "temper/detail/error.hpp"
 #include "temper/detail/ids.hpp"
@@ -39,19 +57,95 @@ class Metric {
   /// The factor √(det K) between ★1 and fluxes of the mapped mesh and those for K.
   [[nodiscard]] double strength() const { return strength_; }
 
+  /// Says whether both have one plane: their tensors are multiples of each other, and of one Metrics.
+  [[nodiscard]] bool shares_plane(const Metric& other) const { return to_ == other.to_; }
+
  private:
+  friend class Metrics;
   Tensor tensor_, to_, from_;  // K, B and its inverse
   double strength_ = 1;
 };
 
-/// Maps a mesh to the plane of the metric. Numbers, flags and weights stay. Errors, in the user's numbers: a mesh of
-/// the sphere; a triangle that turns over by rounding. O(n).
-[[nodiscard]] Expected<Mesh> mapped(const Mesh& mesh, const Metric& metric, const InputNames& names = {});
+/// The metric of each triangle of a mesh: one for all, or one for each.
+class Metrics {
+ public:
+  /// One metric for all triangles.
+  Metrics(const Metric& one = {}) : distinct_{one} {}  // NOLINT(google-explicit-constructor): one is the usual case
+  /// One tensor for each triangle. Tensors that are multiples of each other get one plane. Error: of Metric::of, with
+  /// the triangle.
+  [[nodiscard]] static Expected<Metrics> of(std::span<const Tensor> tensors, const InputNames& names = {});
 
-/// Maps a changed mesh back to the plane of `original`. Vertices that have not moved since mapped(original), such
-/// as boundary and fixed vertices, get their place from there, bit for bit. `vertices`: number of each vertex in
-/// `original`, as in OptimizeReport; empty: the same numbers. Errors as for mapped().
-[[nodiscard]] Expected<Mesh> mapped_back(const Mesh& changed, const Mesh& original, const Metric& metric,
-                                         const IdVector<VertexId, VertexId>& vertices = {});
+  /// Says whether all triangles have one tensor.
+  [[nodiscard]] bool is_constant() const { return of_triangle_.empty(); }
+  /// The number of triangles with a tensor of their own; 0 if all have one.
+  [[nodiscard]] std::size_t n_triangles() const { return of_triangle_.size(); }
+  /// The number of the metric of a triangle among the distinct ones.
+  [[nodiscard]] std::uint32_t number(TriangleId t) const { return is_constant() ? 0 : of_triangle_[t]; }
+  [[nodiscard]] const Metric& operator[](std::uint32_t number) const { return distinct_[number]; }
+  [[nodiscard]] const Metric& of(TriangleId t) const { return distinct_[number(t)]; }
+
+ private:
+  std::vector<Metric> distinct_;
+  IdVector<TriangleId, std::uint32_t> of_triangle_;
+};
+
+/// A mesh in the planes of its metrics, cut along interfaces, where the plane changes. Its pieces may lie on top of
+/// each other. Without interfaces it has the numbers of the mesh that it was made from. Otherwise triangles and
+/// halfedges do. Vertices, too, and the further copies of interface vertices come after them.
+struct MetricMesh {
+  Mesh mesh;
+  Metrics metrics;
+  /// Of each vertex, the first copy of it in `mesh`: its number before the cut. Empty: there are no interfaces.
+  IdVector<VertexId, VertexId> first_copies;
+  /// The region before the cut, and the metric, of each region number of `mesh`. Empty: the regions stay, and there is
+  /// one metric.
+  struct Region {
+    std::int32_t region;
+    std::uint32_t metric;
+  };
+  std::vector<Region> regions;
+
+  [[nodiscard]] bool is_cut() const { return !first_copies.empty(); }
+  [[nodiscard]] VertexId first_copy(VertexId v) const { return is_cut() ? first_copies[v] : v; }
+  [[nodiscard]] const Metric& metric(TriangleId t) const {
+    return metrics[regions.empty() ? 0 : regions[static_cast<std::size_t>(mesh.region(t))].metric];
+  }
+};
+
+/// An edge of an interface: its halfedge in the mesh on either side.
+struct SeamEdge {
+  HalfedgeId one, other;
+};
+/// The edges of interfaces, each once, ascending by `one` < `other`. O(n log n).
+[[nodiscard]] std::vector<SeamEdge> seams_of(const MetricMesh& pieces);
+
+/// Maps a mesh to the planes of its metrics, and cuts it along their interfaces. Flags and weights stay.
+/// `corner_weights`: the weight of each corner of each triangle, for meshes with interfaces; empty: those of the
+/// vertices. Errors, in the user's numbers: a mesh of the sphere; a triangle that turns over by rounding; not one
+/// tensor or not three weights for each triangle. O(n).
+[[nodiscard]] Expected<MetricMesh> mapped(const Mesh& mesh, const Metrics& metrics,
+                                          std::span<const double> corner_weights = {}, const InputNames& names = {});
+
+/// The pieces after a change of their mesh. `vertices`: number of each vertex before it, as in OptimizeReport; empty:
+/// the same numbers.
+[[nodiscard]] MetricMesh with_mesh(const MetricMesh& pieces, Mesh changed,
+                                   const IdVector<VertexId, VertexId>& vertices = {});
+
+/// A mesh in its own plane, from its pieces.
+struct WholeMesh {
+  Mesh mesh;
+  /// Number of each vertex before the change; empty: the same numbers.
+  IdVector<VertexId, VertexId> vertices;
+  /// Weight of each corner of each triangle, three each; empty without interfaces. The mesh itself has at each vertex
+  /// the weight of the first copy.
+  std::vector<double> corner_weights;
+  std::vector<Tensor> tensors;  ///< Tensor of each triangle; empty if all have one
+};
+/// Joins the pieces of a changed mesh, and maps them back to the plane of `original`. Vertices that have not moved
+/// since mapped(original), such as boundary, fixed and interface vertices, get their place from there, bit for bit.
+/// `pieces`: of mapped(original). `vertices`: number there of each vertex of `changed`; empty: the same numbers. Errors
+/// as for mapped().
+[[nodiscard]] Expected<WholeMesh> mapped_back(const MetricMesh& changed, const Mesh& original, const MetricMesh& pieces,
+                                              const IdVector<VertexId, VertexId>& vertices = {});
 
 }  // namespace temper

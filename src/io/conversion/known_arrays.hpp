@@ -16,6 +16,8 @@ inline constexpr std::string_view kCorner = "medit:corner", kRequired = "medit:r
 inline constexpr std::string_view kPairSide = "adcirc:side";
 /// This array of lines has 1 if the dual of the edge is a face that must stay, such as a piece of a fault; else 0.
 inline constexpr std::string_view kFace = "temper:face";
+/// A weight for each corner of each cell, where tensors of several planes meet.
+inline constexpr std::string_view kCornerWeights = "corner_weights";
 /// The first group of each cell. Without it, this is the region.
 inline constexpr std::string_view kFirstGroup = "gmsh:physical:first";
 /// The cells in a group that is not their first: this and the tag, "gmsh:physical:7".

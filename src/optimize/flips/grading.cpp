@@ -243,9 +243,10 @@ class BoundaryCutter {
     const Vec2 from = mesh_.position(a), along = mesh_.position(b) - from;
     const double l2 = squared_length(along), t = dot(at - from, along) / l2;
     const double w = split_weight(mesh_.weight(a), mesh_.weight(b), l2, t);
-    plan_ = plan_split(mesh_, find_edge(a, b), WeightedPoint{at.x, at.y, w}, std::move(plan_));
+    const HalfedgeId h = find_edge(a, b);
+    plan_ = plan_split(mesh_, h, WeightedPoint{at.x, at.y, w}, std::move(plan_));
     const std::pair<VertexId, VertexId> ends = std::minmax(a, b);
-    if (plan_.status != InsertionStatus::possible || has_most() || !guard_.allows(plan_)) {
+    if (mesh_.is_frozen(h) || plan_.status != InsertionStatus::possible || has_most() || !guard_.allows(plan_)) {
       refused_.insert(ends);
       return {};
     }

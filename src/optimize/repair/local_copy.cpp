@@ -52,7 +52,7 @@ bool LocalCopy::insert(TriangleId t, const WeightedPoint& place) {
 
 bool LocalCopy::split(HalfedgeId h, double part) {
   const Mesh& mesh = work_.mesh;
-  if (mesh.is_frozen(mesh.origin(h)) && mesh.is_frozen(mesh.target(h))) return false;  // it may bound a polygon
+  if (mesh.is_frozen(h)) return false;  // it may bound a polygon
   const Space& space = mesh.space();
   const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h), a);
   const double w = 0.5 * (space.weight(a) + space.weight(b));

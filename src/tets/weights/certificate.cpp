@@ -25,7 +25,7 @@ constexpr double kLeastCoordinate = 0x1p-75;
 // A product of M, a margin and a multiplier has 600 + 53 + 20 + 53 + 250 + 53 = 1029 bits. The margin of a smaller M
 // counts as 0, which is weaker.
 constexpr double kLeastM = 0x1p-600;
-constexpr std::array<int, 5> kDegrees = {4, 2, 6, 6, 5};
+constexpr std::array<int, 6> kDegrees = {4, 2, 6, 6, 5, 4};
 
 bool counts(Constraints constraints, Kind kind) {
   switch (constraints) {
@@ -112,6 +112,7 @@ bool is_of(const Parts& parts, const WeightConstraint& c) {
     case Kind::dual_of_face:
       return parts.has_positive(c.p, c.q, c.r, c.s) && parts.has_positive(c.p, c.r, c.q, c.t);
     case Kind::dual:
+    case Kind::equal_crossing:
       return false;
   }
   return false;
