@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "temper/detail/cells.hpp"
+#include "temper/detail/tensor.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -51,7 +52,10 @@ struct DrawOptions {
   bool vertex_numbers = false;
   std::optional<TriangleColors> colors = {};  ///< Colors instead of margins and bad triangles
   std::optional<RegionCells> cells = {};      ///< Cells instead of triangles; `fill` and `colors` then have no effect
-  std::optional<Box> zoom = {};               ///< Box that the picture shows
+  /// The meshes in the planes of diffusion tensors, one for each panel: duals and margins are those of the metrics, in
+  /// the plane of the mesh. There are no weight circles then. Empty: without tensors.
+  std::vector<MetricMesh> pieces = {};
+  std::optional<Box> zoom = {};  ///< Box that the picture shows
   /// Middle of the picture for a sphere: longitude and latitude [degrees]. None: the middle of a mesh that is a part of
   /// the sphere, else 0, 0. Parts behind the limb are not drawn. A zoom box is in the plane of the picture [length],
   /// from its middle to the right and up.

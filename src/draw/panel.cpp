@@ -45,7 +45,12 @@ double edge_length(const Mesh& mesh, HalfedgeId h) {
 class PanelPainter : public Painter {
  public:
   PanelPainter(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options, std::size_t number)
-      : Painter(viewport, options), mesh_(mesh), number_(number), shifts_(shifts_of(mesh.space())) {}
+      : Painter(viewport, options),
+        mesh_(mesh),
+        pieces_(options.pieces.empty() ? nullptr : &options.pieces[number]),
+        measured_(pieces_ != nullptr ? pieces_->mesh : mesh),
+        number_(number),
+        shifts_(shifts_of(mesh.space())) {}
 
   Panel paint() {
     panel_.elements = mesh_.n_triangles();
@@ -55,7 +60,7 @@ class PanelPainter : public Painter {
     if (options_.primal) draw_edges();
     draw_face_lines();
     if (options_.dual && detailed_) draw_dual();
-    if (options_.weights && detailed_) draw_weights();
+    if (options_.weights && detailed_ && pieces_ == nullptr) draw_weights();
     draw_periods();
     if (options_.near_coincident) ring_near_coincident();
     if (options_.vertex_numbers) number_vertices();
@@ -92,7 +97,7 @@ class PanelPainter : public Painter {
     const ColorScale scale = options_.colors ? scale_of(*options_.colors) : kMargins;
     Fills fills;
     for (TriangleId t : mesh_.triangles()) {
-      const TriangleMeasure measure = measure_triangle(mesh_, t);
+      const TriangleMeasure measure = measure_triangle(measured_, t);
       const bool good = measure.well_centered();
       panel_.bad += good ? 0 : 1;
       if (options_.cells || (!options_.colors && !options_.fill)) continue;
@@ -177,18 +182,18 @@ class PanelPainter : public Painter {
     panel_.faces = lines.faces;
   }
 
-  // Dual edges run between the orthocenters on both sides, or from an orthocenter to the weighted midpoint of a
-  // boundary edge.
+  // Dual edges run between the orthocenters on both sides, or from an orthocenter to the weighted midpoint of an edge
+  // of the boundary, or of an interface between tensors.
   void draw_dual() {
     IdVector<TriangleId, WeightedPoint> centers(mesh_.n_triangles());
     for (TriangleId t : mesh_.triangles()) centers[t] = center(t);
     PathText positive, negative;
     for (HalfedgeId h : mesh_.halfedges()) {
-      if (!mesh_.is_edge_representative(h)) continue;
+      if (!measured_.is_edge_representative(h)) continue;
       const TriangleId here = Mesh::triangle(h), there = Mesh::triangle(mesh_.twin(h));
       const WeightedPoint near = mesh_.point(mesh_.origin(h));
       add_line(has_negative_dual(h) ? negative : positive, beside(near, here, centers[here]),
-               mesh_.is_boundary(h) ? weighted_midpoint(h) : beside(near, there, centers[there]));
+               measured_.is_boundary(h) ? weighted_midpoint(h) : beside(near, there, centers[there]));
     }
     panel_.dual = !positive.empty();
     panel_.negative_dual = !negative.empty();
@@ -199,14 +204,20 @@ class PanelPainter : public Painter {
   }
 
   [[nodiscard]] bool has_negative_dual(HalfedgeId h) const {
-    if (!mesh_.is_boundary(h)) return !is_regular(mesh_, h);
-    return measure_triangle(mesh_, Mesh::triangle(h)).h_sign[h.index % 3] == Sign::negative;
+    if (!measured_.is_boundary(h)) return !is_regular(measured_, h);
+    return measure_triangle(measured_, Mesh::triangle(h)).h_sign[h.index % 3] == Sign::negative;
   }
 
   /// The orthocenter or the weighted midpoint, as a point of the space.
   [[nodiscard]] WeightedPoint center(TriangleId t) const {
-    const auto [a, b, c] = mesh_.points(t);
-    return orthocenter(mesh_.space(), a, b, c);
+    const auto [a, b, c] = measured_.points(t);
+    return in_plane(t, orthocenter(mesh_.space(), a, b, c));
+  }
+  /// A point that was measured in the metric of a triangle.
+  [[nodiscard]] WeightedPoint in_plane(TriangleId t, const WeightedPoint& p) const {
+    if (pieces_ == nullptr) return p;
+    const Vec2 at = pieces_->metric(t).from_metric(p.position());
+    return {at.x, at.y, p.w};
   }
   /// The center of a triangle: the image with a corner near a point.
   [[nodiscard]] WeightedPoint beside(const WeightedPoint& near, TriangleId t, const WeightedPoint& center) const {
@@ -215,8 +226,8 @@ class PanelPainter : public Painter {
     return {center.x + (image.x - corner.x), center.y + (image.y - corner.y), center.w};
   }
   [[nodiscard]] WeightedPoint weighted_midpoint(HalfedgeId h) const {
-    const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
-    return temper::weighted_midpoint(mesh_.space(), a, b);
+    const WeightedPoint a = measured_.point(measured_.origin(h)), b = measured_.point(measured_.target(h), a);
+    return in_plane(Mesh::triangle(h), temper::weighted_midpoint(mesh_.space(), a, b));
   }
   /// The place in the picture of a visible point that is in the box, or within `radius` of it.
   [[nodiscard]] std::optional<Vec2> seen(const WeightedPoint& p, double radius = 0) const {
@@ -286,6 +297,8 @@ class PanelPainter : public Painter {
   }
 
   const Mesh& mesh_;
+  const MetricMesh* pieces_;  // in the planes of tensors; null: there are none
+  const Mesh& measured_;
   std::size_t number_;
   std::vector<Vec2> shifts_;
 };

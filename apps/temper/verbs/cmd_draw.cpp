@@ -161,13 +161,23 @@ std::vector<FaceLine> face_lines(const Input& input) {
   return lines;
 }
 
+/// Cells with the duals of tensors, in the plane of the mesh.
+CellPolygons cells_in_metric(const Mesh& mesh, const MetricMesh& pieces, CellsOf of) {
+  const DecComplex there = dec_operators(pieces.mesh);
+  if (of == CellsOf::triangles) return cell_polygons(mesh, mapped_back(there, pieces, mesh), of);
+  return cell_polygons(mesh, mapped_back(power_cells(pieces.mesh, there), pieces));
+}
+
 /// The cells of the panels, from left to right.
 void set_cells(DrawOptions& options, const std::optional<CellsOf>& of, std::initializer_list<const Input*> panels) {
   if (!of) return;
   options.cells.emplace();
   for (const Input* panel : panels) {
     expect_plane(panel->mesh(), panel->path, "--cells");
-    options.cells->panels.push_back(cell_polygons(panel->mesh(), dec_operators(panel->mesh()), *of));
+    const std::size_t number = options.cells->panels.size();
+    options.cells->panels.push_back(options.pieces.empty()
+                                        ? cell_polygons(panel->mesh(), dec_operators(panel->mesh()), *of)
+                                        : cells_in_metric(panel->mesh(), options.pieces[number], *of));
     options.cells->lines.push_back(*of == CellsOf::vertices ? face_lines(*panel) : std::vector<FaceLine>());
     for (const PhysicalName& name : panel->file.names) {
       if (name.dimension == 2) options.cells->names.emplace(name.tag, name.name);
@@ -224,13 +234,15 @@ tets::Plane plane_of(const DrawSettings& s, const tets::TetMesh& mesh) {
 std::string picture(const DrawSettings& s, Input& input, Input* before) {
   check_view(s.options, input);
   DrawOptions options = s.options;
-  take_to_metric(input, s.tensor);
+  for (const Input* panel : {static_cast<const Input*>(before), static_cast<const Input*>(&input)}) {
+    if (panel == nullptr || !s.tensor.given()) continue;
+    options.pieces.push_back(*metric_of(*panel, s.tensor));
+  }
   if (before == nullptr) {
     set_colors(options, s.color, {&input});
     set_cells(options, s.cells, {&input});
     return draw_svg(input.mesh(), options);
   }
-  take_to_metric(*before, s.tensor);
   check_same_space(*before, input);
   set_colors(options, s.color, {before, &input});
   set_cells(options, s.cells, {before, &input});
@@ -271,7 +283,6 @@ Exit run_draw(const Arguments& arguments) {
   s.options.near_coincident = !s.no_rings;
   check_zoom(s.options);
   if (s.cells && command.was_given("--color")) refuse_usage("draw", "--color and --cells: expected one of the two");
-  expect_without(command, s.tensor, "--zoom");
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 

@@ -116,6 +116,18 @@ void check_layers(const Command& command, const DecSettings& s, const std::vecto
   }
 }
 
+/// Checks that the cells of layers have one tensor each, and that the solver takes their lengths from the file.
+void check_tensor(const DecSettings& s, const std::vector<io::DecFormat>& formats) {
+  if (!s.tensor.given() || s.layers.empty()) return;
+  if (!s.tensor.metric && s.cells == CellsOf::vertices)
+    refuse_usage("operators",
+                 "--tensor: a power cell may have several tensors. Next: --cells triangles, or one tensor for all");
+  if (std::ranges::find(formats, io::DecFormat::disv) != formats.end())
+    refuse_usage("operators",
+                 "--tensor does not go with --format disv, where MODFLOW computes lengths itself, without the tensor. "
+                 "Next: --format disu");
+}
+
 /// Checks before the work that a folder can be made, and that no input is one of the files that will be replaced.
 void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& formats, io::DecKind kind) {
   std::error_code ignored;
@@ -147,13 +159,13 @@ Complex with_k(const Command& command, const DecSettings& s, const InputOf<Subje
 std::optional<Columns> make_columns(const DecSettings& s, const Input& input, const DecComplex& complex,
                                     const PowerCells& cells) {
   if (s.layers.empty()) return {};
-  expect_plane(input.mesh(), s.input, "--layers");
+  const Mesh& mesh = input.mesh();
+  expect_plane(mesh, s.input, "--layers");
   const bool power = s.cells == CellsOf::vertices;
   Layers layers = or_fail(io::read_layers(s.layers, input.file, input.loaded));
-  if (!power) layers = layers_of_triangles(input.mesh(), layers);
+  if (!power) layers = layers_of_triangles(mesh, layers);
   auto made =
-      columns(input.mesh(), complex,
-              power ? cell_polygons(input.mesh(), cells) : cell_polygons(input.mesh(), complex, CellsOf::triangles),
+      columns(mesh, complex, power ? cell_polygons(mesh, cells) : cell_polygons(mesh, complex, CellsOf::triangles),
               layers, {s.pinch_out, input.names.get()});
   if (!made) throw as_failure(located(made.error(), s.input));
   return *std::move(made);
@@ -208,6 +220,7 @@ void write(const Command& command, const DecSettings& s, Input& input, const std
     cells = mapped_back(std::move(cells), view->pieces);
   }
   const DecSummary summary = summarize(input.mesh(), complex);
+  if (view) input.loaded.mesh = view->plain;
   const std::optional<Columns> under_layers = make_columns(s, input, complex, cells);
   const Columns* const columns = under_layers ? &*under_layers : nullptr;
   DecRecord record = {s.input, summary, cells, columns, {}};
@@ -221,7 +234,7 @@ void write(const Command& command, const DecSettings& s, Input& input, const std
   if (!s.barriers.empty()) options.barriers = barriers;
   options.names = input.names.get();
   options.executor = executor;
-  record.files = or_fail(io::write_dec(s.output, view ? view->plain : input.mesh(), complex, cells, options));
+  record.files = or_fail(io::write_dec(s.output, input.mesh(), complex, cells, options));
   s.json ? print_data(dec_json(record)) : print(dec_text(record));
 }
 
@@ -237,7 +250,7 @@ Exit run_operators(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   const std::vector<io::DecFormat> formats = parse_formats(s.formats);
-  expect_without(command, s.tensor, "--layers");
+  check_tensor(s, formats);
   const io::DecKind of_triangles = s.layers.empty() ? io::DecKind::triangles : io::DecKind::columns;
   check_folder(s, formats, of_triangles);
 

@@ -121,6 +121,87 @@ TEST_F(Optimize, InTheMetricOfATensorAndNowhereElse) {
   EXPECT_FALSE(std::filesystem::exists("b.vtu"));
 }
 
+TEST_F(Optimize, TakesATensorForEachRegion) {
+  write("rock.poly",
+        "6 2 0 0\n0 0 0\n1 1 0\n2 1 0.6\n3 1 1\n4 0 1\n5 0 0.4\n7 0\n0 0 1\n1 1 2\n2 2 3\n3 3 4\n4 4 5\n5 5 0\n6 5 2\n0\n"
+        "2\n0 0.5 0.1 1\n1 0.5 0.9 2\n");
+  temper_ok({"mesh", "rock.poly", "-o", "rock.vtu", "--size", "0.12"});
+  const std::vector<std::string> tensors = {"--tensor", "1=1,0,4", "--tensor", "2=3,1,2"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.end(), tensors.begin(), tensors.end());
+    return words;
+  };
+  temper_ok(with({"optimize", "rock.vtu", "-o", "out.vtu", "--boundary", "split", "--require", "outside=0"}));
+  EXPECT_TRUE(contains(read("out.vtu"), "Name=\"corner_weights\""));
+  const Outcome check = temper_ok(with({"check", "out.vtu", "--require", "outside=0,not_crossed=0"}));
+  EXPECT_EQ(check.err, "") << "weights keep the equations";
+  const auto fluxes = nlohmann::json::parse(temper_ok(with({"operators", "out.vtu", "-o", "operators", "--json"})).out);
+  EXPECT_GT(fluxes.at("min_star1").get<double>(), 0);
+  EXPECT_EQ(fluxes.at("vertices"), nlohmann::json::parse(temper_ok({"check", "out.vtu", "--json"}).out).at("vertices"));
+  temper_ok(with({"draw", "out.vtu", "-o", "out.svg", "--before", "rock.vtu"}));
+  EXPECT_TRUE(contains(read("out.svg"), "bad"));
+  temper_ok(with({"explain", "rock.vtu"}));
+  temper_ok(with({"weights", "rock.vtu", "-o", "weighted.vtu", "--mode", "elastic"}));
+  EXPECT_EQ(temper_ok(with({"check", "weighted.vtu"})).err, "");
+  // The layers as files for MODFLOW, which computes lengths of DISV itself.
+  write("layers.csv", "vertex,top,bottom 1\n*,1,0\n");
+  const std::vector<std::string> layers = {"operators", "out.vtu",     "-o",     "model",    "--layers",
+                                           "layers.csv", "--cells", "triangles", "--format"};
+  const auto format = [&](const std::string& name) {
+    std::vector<std::string> words = layers;
+    words.push_back(name);
+    return with(words);
+  };
+  temper_ok(format("disu,tough,uge"));
+  EXPECT_TRUE(contains(temper(format("disv")).err, "MODFLOW computes lengths itself, without the tensor"));
+  EXPECT_TRUE(contains(temper(with({"operators", "out.vtu", "-o", "model", "--layers", "layers.csv", "--format", "disu"})).err,
+                       "a power cell may have several tensors"));
+}
+
+TEST_F(Optimize, TensorsThatDoNotFitAreTold) {
+  const auto refused = [](std::vector<std::string> words) {
+    std::vector<std::string> all = {"optimize", "in.vtu", "-o", "none.vtu"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = temper(all);
+    EXPECT_EQ(outcome.exit, 2) << outcome.err;
+    EXPECT_FALSE(exists("none.vtu"));
+    return outcome.err;
+  };
+  EXPECT_TRUE(contains(refused({"--tensor", "7=1,0,2"}), "in.vtu: --tensor: there is no value for region 0"));
+  EXPECT_TRUE(contains(refused({"--tensor", "0=1,0,2", "--tensor", "9=1,0,3"}), "--tensor: the mesh has no region 9"));
+  EXPECT_TRUE(contains(refused({"--tensor", "0=1,0,2", "--tensor", "0=1,0,3"}), "--tensor: region 0 has two values"));
+  EXPECT_TRUE(contains(refused({"--tensor", "0=1,0,2", "--tensor", "1,0,3"}), "or one other value, found '1,0,3', too"));
+  EXPECT_TRUE(contains(refused({"--tensor", "sand=1,0,2"}), "expected the number or name of a region before '='"));
+  EXPECT_TRUE(contains(refused({"--tensor", "0=1,2"}), "expected three numbers KXX,KXY,KYY, found 2 in '0=1,2'"));
+  EXPECT_TRUE(contains(refused({"--tensor", "k"}), "--tensor: there are no cell data 'k' of three numbers"));
+  EXPECT_TRUE(contains(refused({"--tensor", "k11,k22,angle1"}), "there are no cell data 'k11' of one number"));
+  EXPECT_TRUE(contains(refused({"--tensor", "0=1,3,1"}), "expected a positive definite tensor"));
+}
+
+TEST_F(Optimize, TakesTensorsFromCellDataAsMODFLOWHasThem) {
+  // A square of two triangles: k11 and k22 of axes that are turned by 30 degrees in one of them.
+  const std::string head =
+      "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" "
+      "NumberOfCells=\"2\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 1 1 "
+      "0 0 1 0</DataArray></Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 0 2 "
+      "3</DataArray><DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3 6</DataArray><DataArray "
+      "type=\"UInt8\" Name=\"types\" format=\"ascii\">5 5</DataArray></Cells><CellData>",
+                    tail = "</CellData></Piece></UnstructuredGrid></VTKFile>";
+  const auto data = [](const std::string& name, const std::string& values, int components = 1) {
+    return "<DataArray type=\"Float64\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
+           "\" format=\"ascii\">" + values + "</DataArray>";
+  };
+  write("modflow.vtu", head + data("k11", "4 2") + data("k22", "1 1") + data("angle1", "30 0") + tail);
+  // 4 cos² + sin², 3 cos sin, 4 sin² + cos² of 30 degrees.
+  write("tensor.vtu", head + data("K", "3.25 1.299038105676658 1.75 2 0 1", 3) + tail);
+  const auto measures = [](const std::string& file, const std::string& tensor) {
+    return nlohmann::json::parse(temper_ok({"operators", file, "-o", "d", "--json", "--tensor", tensor}).out);
+  };
+  const auto turned = measures("modflow.vtu", "k11,k22,angle1"), whole = measures("tensor.vtu", "K");
+  for (const std::string key : {"min_star1", "max_star1", "min_star0", "max_transmissibility"})
+    EXPECT_NEAR(turned.at(key).get<double>(), whole.at(key).get<double>(), 1e-12) << key;
+}
+
 // What comes back from a metric is rounded, and edges of squares, which are ties there, may lack a flip here.
 TEST_F(Optimize, LowersTheErrorOfTheUsersOwnProblem) {
   temper_ok({"mesh", TEMPER_SOURCE_DIR "/examples/layers.geojson", "-o", "in.msh", "--size", "150"});

@@ -1,0 +1,114 @@
+// Runs with a tensor for each region.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "support/layers_of_rock.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/feasibility.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper {
+namespace {
+
+struct Result {
+  Mesh mesh;
+  OptimizeReport report;
+  MetricMesh pieces;
+};
+
+Result run_of(const test::LayersOfRock& rock, OptimizeOptions options = {}) {
+  Result run = {rock.mesh, {}, {}};
+  options.triangle_tensors = rock.tensors;
+  auto report = optimize(run.mesh, options);
+  EXPECT_TRUE(report) << report.error().what();
+  run.report = *std::move(report);
+  run.pieces = *mapped(run.mesh, *Metrics::of(run.report.triangle_tensors), run.report.corner_weights);
+  return run;
+}
+
+std::size_t bad_in(const Mesh& mesh) {
+  std::size_t bad = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.points(t);
+    bad += is_well_centered(mesh.space(), p, q, r) ? 0 : 1;
+  }
+  return bad;
+}
+
+TEST(RunsWithTensors, MakeTrianglesWellCenteredInTheMetricOfTheirRegion) {
+  for (const double ratio : {2.0, 3.0, 8.0}) {
+    const test::LayersOfRock rock = test::layers_of_rock(3, ratio, 4);
+    EXPECT_GT(bad_in(rock.pieces().mesh), ratio > 2 ? 5U : 0U);
+    const Result run = run_of(rock, {.boundary = BoundaryVertices::split});
+    EXPECT_FALSE(run.mesh.validate());
+    EXPECT_EQ(bad_in(run.pieces.mesh), 0U) << ratio;
+    EXPECT_LT(largest_gap(run.pieces), 1e-14);
+    EXPECT_EQ(run.report.triangle_tensors.size(), run.mesh.n_triangles());
+    EXPECT_EQ(run.report.corner_weights.size(), run.mesh.n_halfedges());
+  }
+}
+
+TEST(RunsWithTensors, KeepInterfacesAndTheirVertices) {
+  const test::LayersOfRock rock = test::layers_of_rock(3, 4, 4);
+  const Result run = run_of(rock);
+  ASSERT_TRUE(run.report.vertices.empty());
+  const MetricMesh before = rock.pieces();
+  EXPECT_EQ(seams_of(run.pieces).size(), seams_of(before).size());
+  for (const SeamEdge& seam : seams_of(before)) {
+    for (const HalfedgeId h : {seam.one, seam.other}) {
+      const VertexId v = before.first_copy(before.mesh.origin(h));
+      EXPECT_EQ(run.mesh.position(v).x, rock.mesh.position(v).x);
+      EXPECT_EQ(run.mesh.position(v).y, rock.mesh.position(v).y);
+      EXPECT_FALSE(run.mesh.is_frozen(v));
+      EXPECT_FALSE(run.mesh.is_fixed(v));
+    }
+  }
+}
+
+TEST(RunsWithTensors, SplitInterfacesOnBothSides) {
+  const test::LayersOfRock rock = test::layers_of_rock(2, 60, 3);
+  const Result run = run_of(rock, {.boundary = BoundaryVertices::split});
+  EXPECT_GT(seams_of(run.pieces).size(), seams_of(rock.pieces()).size());
+  EXPECT_FALSE(run.mesh.validate());
+  EXPECT_LT(largest_gap(run.pieces), 1e-13);
+  ASSERT_EQ(run.report.vertices.size(), run.mesh.n_vertices());
+  EXPECT_GT(run.report.vertices_inserted, 0U);
+  EXPECT_LT(10 * bad_in(run.pieces.mesh), bad_in(rock.pieces().mesh));
+}
+
+TEST(RunsWithTensors, OfOneTensorAreThoseOfAConstant) {
+  test::LayersOfRock rock = test::layers_of_rock(2, 4);
+  rock.tensors.assign(rock.tensors.size(), Tensor{1, 0.2, 3});
+  const Result run = run_of(rock);
+  Mesh constant = rock.mesh;
+  ASSERT_TRUE(optimize(constant, {.tensor = Tensor{1, 0.2, 3}}));
+  EXPECT_EQ(run.mesh, constant);
+  EXPECT_TRUE(run.report.corner_weights.empty());
+}
+
+TEST(RunsWithTensors, WithTheLeastChangeReturnAMeshThatIsGood) {
+  const test::LayersOfRock rock = test::layers_of_rock(3, 2, 4);
+  const Result first = run_of(rock, {.boundary = BoundaryVertices::split});
+  ASSERT_EQ(bad_in(first.pieces.mesh), 0U);
+  Mesh again = first.mesh;
+  const auto report = optimize(again, {.change = Change::least,
+                                       .triangle_tensors = first.report.triangle_tensors,
+                                       .corner_weights = first.report.corner_weights});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(again, first.mesh);
+  EXPECT_EQ(report->corner_weights, first.report.corner_weights);
+}
+
+TEST(RunsWithTensors, TellWrongArrays) {
+  test::LayersOfRock rock = test::layers_of_rock(2, 4);
+  rock.tensors.pop_back();
+  Mesh mesh = rock.mesh;
+  const auto refused = optimize(mesh, {.triangle_tensors = rock.tensors});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message, "tensors: expected 72 for 72 triangles, found 71");
+  EXPECT_EQ(mesh, rock.mesh);
+}
+
+}  // namespace
+}  // namespace temper
