@@ -271,6 +271,7 @@ Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
     file.path = path;
     file.numbering = document.names;
     read_side_file(document);
+    read_corner_file(document);
     drop_zero_weights(file);
     tidy_names(file);
     tidy_warnings(file);
@@ -387,6 +388,7 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     row.write(job);
     warn_of_losses(job);
     if ((row.holds & kWeights) == 0) write_side_file(job);
+    if ((row.holds & kCellData) == 0) write_corner_file(job);
     outputs.commit();
     return warnings;
   });
@@ -399,6 +401,7 @@ std::vector<std::string> files_to_read(const std::string& path) {
   if (row != nullptr && row->details.files_to_read != nullptr) files = row->details.files_to_read(path);
   if (std::find(files.begin(), files.end(), path) == files.end()) files.insert(files.begin(), path);
   files.push_back(side_file_path(files.front()));
+  files.push_back(corner_file_path(files.front()));
   std::erase_if(files, [](const std::string& file) { return !exists(file); });
   return files;
 }
@@ -412,6 +415,9 @@ Expected<std::vector<std::string>> files_to_write(const std::string& path, const
     std::vector<std::string> files =
         row.details.files_to_write == nullptr ? std::vector<std::string>{path} : row.details.files_to_write(path);
     if ((row.holds & kWeights) == 0 && !is_stream(path)) files.push_back(side_file_path(path));
+    const bool beside = (row.holds & kCellData) == 0 && !is_stream(path);
+    if (beside && ((file != nullptr && has_corner_weights(*file)) || exists(corner_file_path(path))))
+      files.push_back(corner_file_path(path));
     return files;
   });
 }

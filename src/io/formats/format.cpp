@@ -329,14 +329,16 @@ void warn_of_losses(const WriteJob& job) {
     if (!lost(of_faces ? kLineData : content)) continue;
     std::vector<std::string_view> names;
     for (const DataArray& a : data_of(f, content)) {
-      if (a.name == kQuadrilateral || (a.name == kFace && content == kLineData)) continue;
+      if (a.name == kQuadrilateral || (a.name == kFace && content == kLineData) || a.name == kCornerWeights) continue;
       if (row.details.keeps == nullptr || !row.details.keeps(content, a)) names.push_back(a.name);
     }
     warn_of_arrays(job, of_faces ? "face data" : name, names);
   }
   if (tets && lost(kCellData)) {
     std::vector<std::string_view> names;
-    for (const DataArray& a : f.tetrahedra.data) names.push_back(a.name);
+    for (const DataArray& a : f.tetrahedra.data) {
+      if (a.name != kCornerWeights) names.push_back(a.name);
+    }
     warn_of_arrays(job, "cell data", names);
   }
   if (lost(kNames)) warn_of_names(job, f.names);

@@ -203,6 +203,11 @@ void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
 // --- weights of formats without a place for them ---------------------------------------------------
 /// PATH.weights.csv
 [[nodiscard]] std::string side_file_path(const std::string& path);
+/// PATH.corner_weights.csv, with weights for each vertex and region of formats without cell data
+[[nodiscard]] std::string corner_file_path(const std::string& path);
+[[nodiscard]] bool has_corner_weights(const MeshFile& file);
+void read_corner_file(Document& document);
+void write_corner_file(const WriteJob& job);
 /// Takes the weights from the side file when it exists and the file itself has none.
 void read_side_file(Document& document);
 /// Writes the side file when there are weights, or the side file exists.

@@ -1,5 +1,6 @@
 // The content decides the format, and formats that temper does not read are named.
 #include "support.hpp"
+#include "support/lattice.hpp"
 #include "temper/generate.hpp"
 
 namespace temper::io {
@@ -232,6 +233,36 @@ TEST_F(FilesOfAMesh, AreFoundFromEitherOfThemAndWithoutOneThereIsThePathAlone) {
   EXPECT_EQ(files_to_read("/dev/stdin"), std::vector<std::string>{"/dev/stdin"});
 }
 
+TEST_F(FileTest, WeightsOfCornersComeBackFromEachFormatOrFromBesideIt) {
+  const Mesh mesh = test::lattice({.n = 4});
+  std::vector<double> weights;
+  for (const HalfedgeId h : mesh.halfedges()) weights.push_back(0.1 * h.index + 1.0 / 3);
+  std::size_t formats_tried = 0;
+  for (const Format& format : formats()) {
+    if (!format.writes || !format.holds_planes) continue;
+    MeshFile file = from_mesh(mesh);
+    set_corner_weights(file, weights);
+    const std::string name = path("m" + std::string(format.suffixes.substr(0, format.suffixes.find(' '))));
+    WriteOptions options;
+    options.format = format.name;
+    ASSERT_TRUE(write(name, file, options)) << format.name;
+    const auto back = read(name);
+    ASSERT_TRUE(back) << format.name << ": " << back.error().what();
+    const auto loaded = make_mesh(*back);
+    ASSERT_TRUE(loaded);
+    const std::vector<double> found = corner_weights_of(*back, *loaded);
+    ASSERT_EQ(found.size(), weights.size()) << format.name;
+    // Formats may begin a triangle with another corner.
+    for (const HalfedgeId h : loaded->mesh.halfedges()) {
+      const HalfedgeId was = mesh.find_halfedge(loaded->mesh.origin(h), loaded->mesh.target(h));
+      ASSERT_TRUE(was.valid()) << format.name;
+      EXPECT_EQ(found[h.index], weights[was.index]) << format.name;
+    }
+    ++formats_tried;
+  }
+  EXPECT_GT(formats_tried, 10U);
+}
+
 TEST_F(FileTest, AnOldSideFileDoesNotGiveItsWeightsToANewMesh) {
   MeshFile f = sample();
   ASSERT_TRUE(write(path("m.obj"), f));
@@ -257,6 +288,24 @@ TEST_F(FileTest, ASideFileThatDoesNotFitIsNamed) {
     ASSERT_FALSE(f) << content;
     EXPECT_EQ(plain(f.error().what()), message);
   }
+}
+
+TEST_F(FileTest, ACornerFileThatDoesNotFitIsNamed) {
+  make("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string file = "m.obj.corner_weights.csv", title = "triangle,first,second,third\n";
+  const std::pair<std::string, std::string> kCases[] = {
+      {"triangle,first,third\n", ":1: expected 'second' in the title line, found 'third'"},
+      {title + "1,0,0,x\n", ":2: expected a weight, found 'x'"},
+      {title + "1,0,0,nan\n", ":2: triangle 1 has weight nan, expected a finite number"},
+      {title + "1,0,0,0\n2,0,0,0\n", ":3: has more rows than m.obj has cells (1)"}};
+  for (const auto& [content, message] : kCases) {
+    make(file.c_str(), content);
+    const auto f = read(path("m.obj"));
+    ASSERT_FALSE(f) << content;
+    EXPECT_EQ(plain(f.error().what()), file + message);
+  }
+  make(file.c_str(), title);
+  EXPECT_TRUE(read(path("m.obj"))->triangles.data.empty()) << "it replaces an old one";
 }
 
 }  // namespace
