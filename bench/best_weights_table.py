@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""Best weights of each mesh: gaps, verified by bench/check_best.py, and errors of star 1 over those of the input.
+"""Best weights: gaps, verified by bench/check_best.py, and errors of star 1 over those of the input.
 
     bench/best_weights_table.py TEMPER MESH ...
 
-`star 1` is the mean of temper errors over all fields, L2. A mesh without weights has no row. The last line has the
-largest number of each column.
+`★1` is the mean of temper errors over all fields, L2. The table has the geometric mean over the meshes, the number of meshes
+on which the error rises, and the largest number of the rest. Rows of each mesh go to stderr; a mesh without weights has none.
 """
 
 import json
 import pathlib
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -19,7 +20,7 @@ RUNS = {
     "change": ["--mode", "change"],
     "center": ["--mode", "center"],
     "accuracy": ["--mode", "accuracy"],
-    "accuracy, stars": ["--mode", "accuracy", "--for", "stars"],
+    "accuracy --for stars": ["--mode", "accuracy", "--for", "stars"],
 }
 
 
@@ -48,22 +49,19 @@ def measured(temper, mesh, options, folder):
 
 
 def main(temper, *meshes):
-    print("| mesh | " + " | ".join(f"★1: {name}" for name in RUNS) + " | gap: center | gap: accuracy | seconds |")
-    print("|-" * (4 + len(RUNS)) + "|")
-    rows = []
+    rows = {name: [] for name in RUNS}
     with tempfile.TemporaryDirectory() as scratch:
         for mesh in map(pathlib.Path, meshes):
-            results = [measured(temper, mesh, options, pathlib.Path(scratch)) for options in RUNS.values()]
-            stars = [r[0] if r else float("nan") for r in results]
-            if not results[2]:
-                print(f"| {mesh.name} | no weights |", flush=True)
-                continue
-            rows.append([*stars, results[1][1], max(results[2][1], results[3][1]), results[2][2]])
-            *stars, center, accuracy, seconds = rows[-1]
-            print(f"| {mesh.name} | " + " | ".join("—" if s != s else f"{s:.3f}" for s in stars) +
-                  f" | {center:.0e} | {accuracy:.0e} | {seconds:.2f} |", flush=True)
-    *stars, center, accuracy, seconds = (max(x for x in column if x == x) for column in zip(*rows))
-    print("| largest | " + " | ".join(f"{s:.3f}" for s in stars) + f" | {center:.0e} | {accuracy:.0e} | {seconds:.2f} |")
+            for name, options in RUNS.items():
+                result = measured(temper, mesh, options, pathlib.Path(scratch))
+                print(mesh.name, name, result or "no weights", file=sys.stderr, flush=True)
+                rows[name] += [result] if result else []
+    print("| weights | ★1: mean | larger than 1 | largest | gap | seconds |\n|-|-|-|-|-|-|")
+    for name, results in rows.items():
+        stars, gaps, seconds = zip(*results)
+        gap = f"{max(gaps):.0e}" if None not in gaps else ""
+        print(f"| `{name}` | {statistics.geometric_mean(stars):.3f} | {sum(star > 1 for star in stars)} of {len(stars)} | "
+              f"{max(stars):.3f} | {gap} | {max(seconds):.2f} |")  # fmt: skip
 
 
 if __name__ == "__main__":
