@@ -26,8 +26,8 @@ PUBLIC = pathlib.Path(os.environ.get("TEMPER_SHARED", ROOT.parent / "shared")) /
 # Errors cancel from neighbor to neighbor on the first two.
 EXAMPLES = {"sheared grid": ["sheared-grid"], "ring": ["annulus"], "random points": ["random", "--vertices", 400]}
 TARGETS = [f"--for {target}" for target in ("any", "valid", "vertex", "cell", "stars", "mpas", "dflowfm", "adcirc", "fem")]
-EFFORTS = [f"--for {target} --effort {effort}" for target in ("any", "vertex", "cell") for effort in ("quick", "normal", "high")]
-KEEPS = ["--for any", *(f"--keep {part}" for part in ("weights", "positions", "edges", "sizes")), "--for vertex --keep weights", "--boundary split"]
+EFFORTS = [f"--for {target} --effort {effort}" for target in ("any", "vertex", "cell") for effort in ("quick", "high")]
+KEEPS = [*(f"--keep {part}" for part in ("weights", "positions", "edges", "sizes")), "--for vertex --keep weights", "--boundary split"]
 HEAD = ["options", "bad triangles", "angles", "error at vertices", "error in cells", "error of ★1", "time", "obtuse",
         "orthogonality: median, worst", "vertices removed, inserted"]  # fmt: skip
 SCHEMES, CHANGES = ("poisson", "flux", "star1"), ("vertices_removed", "vertices_inserted")
@@ -58,7 +58,6 @@ class Bench:
 
     def measured(self, mesh, options):
         """Of one mesh after a run with these options, or of itself."""
-        options = options.removesuffix(" --effort normal")
         if (mesh, options) not in self.done:
             out, report, before = self.folder / "out.vtu" if options else mesh, self.folder / "report.json", used()
             if options:
