@@ -106,7 +106,9 @@ def options(whose):
     every = [row for verb in verbs if verb != "example" for rows in rows_of(verb).values() for row in rows]
     common = [row for row in dict.fromkeys(every) if every.count(row) > 2 and "--" in row]
     if whose == "several verbs":
-        return "\n".join(common) + "\n"
+        return "\n".join(row for row in common if "--for TARGET" not in row) + "\n"
+    if whose == "temper example":
+        return examples()
     text, also = [], []
     for title, rows in rows_of(whose.removeprefix("temper ")).items():
         own = [row for row in rows if row not in common or "--for TARGET" in row and whose == "temper optimize"]
@@ -115,6 +117,18 @@ def options(whose):
         text += ["\n".join([title, *own])] if own else []
     text += [textwrap.fill("Options of several verbs: " + ", ".join(also) + ".", 100, break_on_hyphens=False)] if also else []
     return "\n\n".join(text) + "\n"
+
+
+def examples():
+    """Each example on a line, and below it its options with their defaults."""
+    text = "temper example NAME --help says what each option of NAME means. These are the defaults:\n"
+    for name, what, rows in re.findall(r"^([a-z-]+): ([^\n]*)((?:\n+  .*)*)", helped("example", "--help-all"), re.M):
+        words = []
+        for flag, value, meaning in re.findall(r"^  (--[a-z]+)( \S+)?(.*(?:\n {4,}.*)*)", rows, re.M):
+            default = re.search(r"\(default:\s+(\S+)\)$", meaning)
+            words.append(f"{flag} {default[1]}" if default else flag + value)
+        text += "\n".join(["", f"{name}: {what}", *(["  " + " ".join(words)] if words else []), ""])
+    return text
 
 
 def run_blocks(page, result):
