@@ -1,4 +1,4 @@
-// The table of docs/explanation/measured.md: errors of each target over those of the input, as Markdown. The fields are
+// Errors of each target over those of the input, as Markdown: see docs/explanation/measured.md. The fields are
 // the held-back ones of temper errors.
 //
 //     bench_accuracy_table FILE...                 one row per mesh and target, and their geometric means

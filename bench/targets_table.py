@@ -100,7 +100,8 @@ class Bench:
 
 
 def markdown(head, rows):
-    return "\n".join("| " + " | ".join(map(str, row)) + " |" for row in [head, ["-"] + ["-:"] * (len(head) - 1), *rows])
+    head, *rows = ("| " + " | ".join(map(str, row)) + " |" for row in [head, *rows])
+    return "\n".join([head, "|-|" + "-:|" * (head.count("|") - 2), *rows])
 
 
 def main():

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Errors after runs with weights, with positions, and with both: the table of docs/explanation/measured.md.
+"""Errors after runs with weights, with positions, and with both: results of docs/explanation/measured.md.
 
     bench/weights_table.py TEMPER MESH ...
 
