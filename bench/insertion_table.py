@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Vertices that each rule of insertion needs: a table of docs/explanation/measured.md.
+"""Vertices that each rule of insertion needs: results of docs/explanation/measured.md.
 
     bench/insertion_table.py DIRECTORY [--no-weights] [--step N] [--moves N] [--seeds N]
 

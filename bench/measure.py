@@ -23,15 +23,6 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENT = ROOT / "docs" / "internals" / "performance.md"
 COST = ROOT / "docs" / "explanation" / "cost.md"
 SETS = ("baseline", "avx2", "avx512")
-PARTS = {
-    "step_1_gather": "gather the star, and what is across its link",
-    "step_2_derivatives": "value, gradient, Hessian",
-    "step_3_newton": "Newton step, 3 × 3",
-    "step_4_inversion_limit": "how far before a triangle turns over",
-    "step_5_trial": "energy and orientation at the new place (a trial)",
-    "step_6_regular": "regularity of its edges there, filtered",
-    "step_7_commit": "into the mesh",
-}
 
 
 def whole_runs(build, options):
@@ -93,25 +84,6 @@ def cost_table(rows):
     return table(head, [cells(r) for r in rows])
 
 
-def step_table(times, rows):
-    """Nanoseconds a vertex; batches have eight. The last rows: what a sweep costs besides."""
-    def of(part, instruction_set):
-        ns = times.get(f"{part}/{instruction_set}", times.get(part))
-        return None if ns is None else ns / 8
-    sets = [s for s in SETS if f"step_5_trial/{s}" in times]
-    cells = [[text] + [number(of(part, s), 1) for s in sets] for part, text in PARTS.items()]
-    total = {s: sum(of(part, s) for part in PARTS) for s in sets}
-    cells.append(["together"] + [number(total[s], 1) for s in sets])
-    whole = {s: times[f"energy_and_bad_triangles/{s}"] / 10000 for s in sets}
-    cells.append(["energy and bad triangles of the mesh, once per sweep"] + [number(whole[s], 1) for s in sets])
-    settled = next((r["settled_ns"] for r in rows if r["vertices"] == 10000), None)
-    if settled:
-        rest = settled - total[sets[-1]] - whole[sets[-1]]
-        cells.append(["the rest of a settled sweep: choosing who comes together, further trials, flips"] +
-                     [""] * (len(sets) - 1) + [number(rest, 1)])
-    return table(["ns per vertex"] + list(sets), cells)
-
-
 def bounds_table(bounds):
     """The bounds that are missed, and how many are met."""
     cells = [[b["what"], f"{b['value']:.3g}", f"at least {b['least']:.3g}" if "least" in b else f"at most {b['most']:.3g}"]
@@ -120,10 +92,10 @@ def bounds_table(bounds):
     return table(["bound that is missed", "measured", "wanted"], [*cells, [f"{met} other bounds are met", "", ""]])
 
 
-def write_tables(runs, times):
+def write_tables(runs):
     rows = runs["sizes"]
     put_tables(COST, {"cost": cost_table(rows)})
-    put_tables(DOCUMENT, {"sweeps": sweeps_table(rows), "step": step_table(times, rows), "bounds": bounds_table(runs["bounds"])})
+    put_tables(DOCUMENT, {"sweeps": sweeps_table(rows), "bounds": bounds_table(runs["bounds"])})
 
 
 def put_tables(page, tables):
@@ -151,8 +123,8 @@ def main(arguments):
         folder.mkdir(exist_ok=True)
         files["kernels"].write_text(json.dumps(kernels(options.build), indent=1) + "\n")
         files["runs"].write_text(json.dumps(whole_runs(options.build, options), indent=1) + "\n")
-    runs, times = (json.loads(files[name].read_text()) for name in ("runs", "kernels"))
-    write_tables(runs, times)
+    runs = json.loads(files["runs"].read_text())
+    write_tables(runs)
     plot.draw(runs, folder)
     return 0
 

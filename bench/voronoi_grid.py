@@ -36,14 +36,14 @@ def valley():
     shapes = {feature["properties"]["name"]: feature["geometry"]["coordinates"] for feature in features}
     corner = np.array([680000, 5240000])
     wells = [np.array(place) - corner for name, place in shapes.items() if name.endswith("well")]
-    return [np.array(shapes["valley"][0])[:-1] - corner], np.array(wells), (120, 60, 30)
+    return [np.array(shapes["valley"][0])[:-1] - corner], np.array(wells), (120, 30)
 
 
 def harbor():
     """Without the mole and the border of the basin, which are lines."""
     points = np.asarray(temper.read_outline(ROOT / "examples/harbour.poly").outline.points)
     shore, island = [1, 19, 2, 3, 4, 5, 6, 7, 9, 8, 17], [12, 13, 14, 15, 16]
-    return [points[np.array(ring) - 1] for ring in (shore, island)], np.empty((0, 2)), (1, 0.5, 0.25)
+    return [points[np.array(ring) - 1] for ring in (shore, island)], np.empty((0, 2)), (1, 0.25)
 
 
 def voronoi_grid(rings, wells, size):
