@@ -88,7 +88,7 @@ def rows_of(verb):
     found = {}
     for section in re.split(r"\n\n(?=\S[^\n]*:\n)", helped(*verb.split(), "--help-all").rstrip()):
         title, _, rows = section.partition("\n")
-        if title.endswith(":") and not title.startswith(("Usage", "Examples", "Exit codes")):
+        if title.endswith(":") and not title.startswith(("Usage", "Examples", "Exit codes", "Solvers by name")):  # docs/howto/choose.md has those
             found.setdefault(title, []).extend(re.split(r"\n+(?=  \S)", rows))
     return found
 
