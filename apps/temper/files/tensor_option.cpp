@@ -187,16 +187,15 @@ MetricMesh in_metric(const Mesh& mesh, const TensorOption& tensor, const std::ve
 
 std::optional<MetricMesh> metric_of(const Input& input, const TensorOption& tensor) {
   if (!tensor.given()) return {};
-  MetricMesh pieces = in_metric(input.mesh(), tensor, tensors_of(tensor, input),
-                                io::corner_weights_of(input.file, input.loaded), input);
-  warn_of_crossings(input, pieces);
-  return pieces;
+  return in_metric(input.mesh(), tensor, tensors_of(tensor, input), io::corner_weights_of(input.file, input.loaded),
+                   input);
 }
 
 std::optional<MetricView> take_to_metric(Input& input, const TensorOption& tensor) {
   std::optional<MetricMesh> pieces = metric_of(input, tensor);
   if (!pieces) return {};
   MetricView view = {input.mesh(), *std::move(pieces)};
+  warn_of_crossings(input, view.pieces);
   name_copies(input, view.pieces);
   input.loaded.mesh = view.pieces.mesh;
   return view;

@@ -38,8 +38,7 @@ void expect_without(const Command& command, const TensorOption& tensor, const st
 /// Lets names and points of the input count the copies of vertices of interfaces, too.
 void name_copies(Input& input, const MetricMesh& pieces);
 
-/// The mesh of the input in the planes of its metrics, if there are tensors. Warns if weights do not keep the equations
-/// of interfaces.
+/// The mesh of the input in the planes of its metrics, if there are tensors.
 [[nodiscard]] std::optional<MetricMesh> metric_of(const Input& input, const TensorOption& tensor);
 
 /// A mesh in its own plane, and in the planes of its metrics.
