@@ -242,9 +242,11 @@ class PiecesRun {
 
 }  // namespace
 
-Expected<OptimizeReport> optimize_in_metrics(Mesh& mesh, const OptimizeOptions& options, OptimizeHooks hooks,
-                                             const PlaneRun& run) {
-  if (auto error = check_metric(options, hooks)) return *std::move(error);
+namespace {
+
+/// Runs in the pieces of a mesh.
+Expected<OptimizeReport> optimize_pieces(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks,
+                                         const PlaneRun& run) {
   const InputNames from_zero;
   auto pieces = pieces_of(mesh, options, hooks.names != nullptr ? *hooks.names : from_zero);
   if (!pieces) return pieces.error();
@@ -259,6 +261,20 @@ Expected<OptimizeReport> optimize_in_metrics(Mesh& mesh, const OptimizeOptions& 
   report->count_vertices(mesh.n_vertices(), report->vertices);
   mesh = std::move(whole->mesh);
   return report;
+}
+
+}  // namespace
+
+Expected<OptimizeReport> optimize_in_metrics(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks,
+                                             const PlaneRun& run) {
+  if (auto error = check_metric(options, hooks)) return *std::move(error);
+  const bool fits = options.triangle_tensors.size() == mesh.n_triangles();
+  const auto metrics = Metrics::of(options.triangle_tensors);
+  if (!fits || !metrics || !turns_everywhere(mesh, *metrics)) return optimize_pieces(mesh, options, hooks, run);
+  return optimize_with_means(mesh, options, hooks,
+                             [&](Mesh& there, const OptimizeOptions& means, const OptimizeHooks& h) {
+                               return optimize_pieces(there, means, h, run);
+                             });
 }
 
 }  // namespace temper

@@ -14,6 +14,14 @@ using PlaneRun = std::function<Expected<OptimizeReport>(Mesh& mesh, const Optimi
 /// interfaces. Vertices of interfaces stay in a run, with their weights, which keep the equations of interfaces
 /// (temper/detail/tensor.hpp). Between runs programs find better weights. O(runs).
 [[nodiscard]] Expected<OptimizeReport> optimize_in_metrics(Mesh& mesh, const OptimizeOptions& options,
-                                                           OptimizeHooks hooks, const PlaneRun& run);
+                                                           const OptimizeHooks& hooks, const PlaneRun& run);
+
+/// Says whether tensors differ at so many edges that vertices of interfaces, which stay, would leave a run no room.
+[[nodiscard]] bool turns_everywhere(const Mesh& mesh, const Metrics& metrics);
+/// Runs with the mean tensor of each region, by `run`, and gives each triangle of the result its own tensor, and
+/// weights of corners that keep the equations of all edges. Precondition: `triangle_tensors` of the options are
+/// tensors.
+[[nodiscard]] Expected<OptimizeReport> optimize_with_means(Mesh& mesh, const OptimizeOptions& options,
+                                                           const OptimizeHooks& hooks, const PlaneRun& run);
 
 }  // namespace temper

@@ -1,6 +1,7 @@
 // Runs with a tensor for each region.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "support/layers_of_rock.hpp"
@@ -98,6 +99,32 @@ TEST(RunsWithTensors, WithTheLeastChangeReturnAMeshThatIsGood) {
   ASSERT_TRUE(report);
   EXPECT_EQ(again, first.mesh);
   EXPECT_EQ(report->corner_weights, first.report.corner_weights);
+}
+
+TEST(RunsWithTensors, WhoseAxesTurnFromTriangleToTriangleTakeTheMeanOfTheRegion) {
+  test::LayersOfRock rock = test::layers_of_rock(2, 4, 4);
+  const auto angle_at = [](const Mesh& mesh, TriangleId t) {
+    return 0.1 * std::sin(mesh.position(mesh.corners(t)[0]).x);
+  };
+  for (const TriangleId t : rock.mesh.triangles()) {
+    const double c = std::cos(angle_at(rock.mesh, t)), s = std::sin(angle_at(rock.mesh, t));
+    rock.tensors[t.index] = {4 * c * c + s * s, 3 * c * s, 4 * s * s + c * c};
+  }
+  const std::size_t before = bad_in(rock.pieces().mesh);
+  const Result run = run_of(rock, {.boundary = BoundaryVertices::split});
+  EXPECT_GT(before, 10U);
+  EXPECT_LT(4 * bad_in(run.pieces.mesh), before);
+  EXPECT_LT(largest_gap(run.pieces), 1e-13) << "each edge is an interface";
+  EXPECT_EQ(run.report.corner_weights.size(), run.mesh.n_halfedges());
+  // Where axes turn so fast that the mean says nothing, the input comes back.
+  test::Noise noise(9);
+  for (Tensor& k : rock.tensors) {
+    const double a = 3 * noise(), c = std::cos(a), s = std::sin(a);
+    k = {50 * c * c + s * s, 49 * c * s, 50 * s * s + c * c};
+  }
+  const std::size_t bad = bad_in(rock.pieces().mesh);
+  const Result wild = run_of(rock);
+  EXPECT_LE(bad_in(wild.pieces.mesh), bad);
 }
 
 TEST(RunsWithTensors, TellWrongArrays) {
