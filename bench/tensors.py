@@ -11,6 +11,7 @@ Needs NumPy, SciPy and the module temper on PYTHONPATH. The cases:
     kinked    two regions, whose interface has three kinks
     lens      a region inside another one
     junction  three regions that meet in a point
+    fault     a thin zone between two regions
 
 The pressure is linear in each region. It is continuous, and so is its flux through interfaces. Unknowns are in the
 triangles. Values at the boundary are given in the weighted midpoints of its edges. Columns:
@@ -120,8 +121,14 @@ def junction(ratio):
     return with_common_flux("junction", ratio, points, segments, [(0.5, 0.1), (0.2, 0.8), (0.8, 0.8)])
 
 
+def fault(ratio):
+    points = SQUARE + [(0.3, 0), (0.36, 0), (0.64, 1), (0.58, 1)]
+    segments = [(0, 4), (4, 5), (5, 1), (1, 2), (2, 6), (6, 7), (7, 3), (3, 0), (4, 7), (5, 6)]
+    return with_common_flux("fault", ratio, points, segments, [(0.1, 0.5), (0.47, 0.5), (0.9, 0.5)])
+
+
 def cases(ratio):
-    return [layers(n, ratio) for n in (2, 3, 5)] + [kinked(ratio), lens(ratio), junction(ratio)]
+    return [layers(n, ratio) for n in (2, 3, 5)] + [kinked(ratio), lens(ratio), junction(ratio), fault(ratio)]
 
 
 # --- two-point fluxes -------------------------------------------------------------------------------------------------

@@ -187,6 +187,9 @@ void add_matrices(NpzWriter& npz, const DecMatrices& matrices, const Complex& c)
     npz.add("coefficient", c.coefficient.raw());
     npz.add("capacity", c.capacity.raw());
   }
+  if constexpr (requires { c.half_transmissibility; }) {
+    if (!c.half_transmissibility.empty()) npz.add("half_transmissibility", c.half_transmissibility.raw());
+  }
 }
 
 void add_cells(NpzWriter& npz, const PowerCells& cells) {
