@@ -67,6 +67,16 @@ TEST(RunsWithTensors, KeepInterfacesAndTheirVertices) {
   }
 }
 
+TEST(RunsWithTensors, TakeAnyWeightsOfTheInput) {
+  test::LayersOfRock rock = test::layers_of_rock(3, 4, 4);
+  test::Noise noise(3);
+  for (const VertexId v : rock.mesh.vertices()) rock.mesh.set_weight(v, 0.1 * noise());
+  EXPECT_GT(largest_gap(rock.pieces()), 1e-3);
+  const Result run = run_of(rock);
+  EXPECT_LT(largest_gap(run.pieces), 1e-14);
+  EXPECT_LT(bad_in(run.pieces.mesh), bad_in(rock.pieces().mesh));
+}
+
 TEST(RunsWithTensors, SplitInterfacesOnBothSides) {
   const test::LayersOfRock rock = test::layers_of_rock(2, 60, 3);
   const Result run = run_of(rock, {.boundary = BoundaryVertices::split});
