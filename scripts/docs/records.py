@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Writes what follows from the tables of reports: the schema of JSON, the classes of Python, the interfaces of TypeScript.
+"""Writes what follows from the tables of reports and options: the schema of JSON, the classes of Python, the types of TypeScript.
 
     records.py PROGRAM           exit 1 and one line a file that is not what the tables say
     records.py --write PROGRAM   writes the files
 
-`PROGRAM --help=reports` prints the tables. schema.json beside this script has the rest of the schema: "fields" in it
+`PROGRAM --help=tables` prints the tables. schema.json beside this script has the rest of the schema: "fields" in it
 names tables whose fields an object has, besides its own properties.
 """
 
+import decimal
 import json
 import keyword
 import pathlib
@@ -194,21 +195,53 @@ def typescript(tables):
     return text
 
 
+def option_value(text, kind):
+    """A value of an option, as JavaScript has it."""
+    if kind != "choice":
+        return format(decimal.Decimal(text), "f")
+    return text if text.isdigit() else json.dumps(text)
+
+
+def typescript_options(said):
+    kinds = {row["name"]: row["kind"] for row in said["options"]}
+
+    def spelled(text):
+        return re.sub(r"`(\w+)(?:=([^`]*))?`", lambda m: m[1] + (f": {option_value(m[2], kinds[m[1]]) if kinds[m[1]] == 'choice' else m[2]}" if m[2] else ""), text)
+
+    text = f"// {NOTE}\nimport type {{ LengthParameterLike }} from './types.ts';\n"
+    for name, words, title in (
+        ("TargetName", "targets", "Use of the mesh"), ("EffortName", "efforts", "Time that the run may take"), ("KeepName", "keeps", "Part of the mesh that stays"),
+    ):  # fmt: skip
+        meanings = "".join(f"\n * - `{word['name']}`: {word['sentence']}." for word in said[words])
+        text += f"\n/** {title}.{meanings} */\nexport type {name} = {' | '.join(json.dumps(word['name']) for word in said[words])};"
+    text += "\n\n/** Further options of `optimize`. */\nexport interface OptimizeOptions {\n"
+    for row in said["options"]:
+        if row["cells"] == "tetrahedra":
+            continue
+        kind = " | ".join(option_value(choice, "choice") for choice in row["choices"]) or {"length_parameter": "LengthParameterLike"}.get(row["kind"], "number")
+        default = "null" if row["optional"] and row["default"] == row["absent_name"] else option_value(row["default"], row["kind"])
+        meaning = spelled(row["sentence"]) + (f"; {row['range']}" if row["range"] and not row["choices"] else "")
+        meaning += f". null: {spelled(row['absent'])}" if row["optional"] and row["absent"] else ""
+        text += f"  /** {meaning}. Default: {default}. */\n  {row['name']}?: {kind}{' | null' * row['optional']};\n"
+    return text + "}\n"
+
+
 def main(program, write=False):
-    said = subprocess.run([program, "--help=reports"], check=True, capture_output=True, text=True, encoding="utf-8").stdout
-    tables = json.loads(said)
+    said = json.loads(subprocess.run([program, "--help=tables"], check=True, capture_output=True, text=True, encoding="utf-8").stdout)
+    tables = said["reports"]
     looks = set(re.findall(r"^class (\w+)", (ROOT / "python/temper/_looks.py").read_text(encoding="utf-8"), re.M))
     files = {
         f"docs/schema/temper-{VERSION}.schema.json": schema(tables),
         "python/temper/_reports.py": python(tables, looks),
         "web/npm/src/records.ts": typescript(tables),
+        "web/npm/src/options.ts": typescript_options(said),
     }
     stale = [name for name, text in files.items() if not (ROOT / name).exists() or (ROOT / name).read_text(encoding="utf-8") != text]
     for name in stale:
         if write:
             (ROOT / name).write_text(files[name], encoding="utf-8")
         else:
-            print(f"{name}: is not what the tables of reports say: run scripts/docs/records.py --write PROGRAM")
+            print(f"{name}: is not what the tables of the program say: run scripts/docs/records.py --write PROGRAM")
     return int(bool(stale) and not write)
 
 

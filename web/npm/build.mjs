@@ -1,7 +1,6 @@
-// Builds the package into dist/: the module, the two platforms, the types. `node build.mjs --options` also writes
-// src/options.ts from the tables of options and of words in the module.
+// Builds the package into dist/: the module, the two platforms, the types.
 import { execFileSync } from 'node:child_process';
-import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -43,43 +42,6 @@ for (const [file, name] of [['build/highs.mjs', 'highs.js'], ['build/highs.wasm'
 copyFileSync(wasm, join(here, 'dist', 'temper.wasm'));
 cpSync(join(module, 'licenses'), join(here, 'dist', 'licenses'), { recursive: true });
 copyFileSync(join(root, 'LICENSE'), join(here, 'LICENSE'));
-
-/** A type for the words of `target`, `effort` or `keep`. */
-function wordsSource(name, title, words) {
-  const meanings = words.map((word) => ` * - \`${word.name}\`: ${word.sentence}.`);
-  return `/** ${title}.\n${meanings.join('\n')} */\nexport type ${name} = ${words.map((word) => JSON.stringify(word.name)).join(' | ')};`;
-}
-
-/** Types for the words, and the options as an interface with one member per row. */
-export function optionsSource(table, presets) {
-  const members = table.map((row) => {
-    const range = row.range && row.choices.length === 0 ? `; ${row.range}` : '';
-    const absent = row.optional && row.absent ? `. null: ${row.absent}` : '';
-    return `  /** ${row.sentence}${range}${absent}. Default: ${JSON.stringify(row.default)}. */\n  ${row.name}?: ${row.type};`;
-  });
-  return `// Written by build.mjs --options from the tables in the library. Do not edit.
-import type { LengthParameterLike } from './types.ts';
-
-${wordsSource('TargetName', 'Use of the mesh', presets.target)}
-${wordsSource('EffortName', 'Time that the run may take', presets.effort)}
-${wordsSource('KeepName', 'Part of the mesh that stays', presets.keep)}
-
-/** Further options of \`optimize\`. */
-export interface OptimizeOptions {
-${members.join('\n')}
-}
-`;
-}
-
-const temper = await import('./dist/node.js');
-const source = optionsSource(temper.option_table(), temper.presets());
-const target = join(here, 'src', 'options.ts');
-if (process.argv.includes('--options')) {
-  writeFileSync(target, source);
-} else if (readFileSync(target, 'utf8') !== source) {
-  console.error('npm: src/options.ts is not what the library has: node build.mjs --options writes it anew');
-  process.exit(1);
-}
 
 const tsc = createRequire(import.meta.url).resolve('typescript/bin/tsc');
 execFileSync(process.execPath, [tsc, '-p', join(here, 'tsconfig.json')], { stdio: 'inherit' });

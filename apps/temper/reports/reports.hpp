@@ -27,8 +27,8 @@
 
 namespace temper::app {
 
-/// The tables of all reports as JSON, for `temper --help=reports`.
-[[nodiscard]] std::string report_tables_json();
+/// The tables of reports and options as JSON, for `temper --help=tables`.
+[[nodiscard]] std::string tables_json();
 
 // The reports of `temper operators` on the operators it wrote: as text, as JSON, and as warnings.
 

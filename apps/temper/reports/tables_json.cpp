@@ -1,11 +1,13 @@
-// The tables of all reports as JSON: scripts/docs/records.py writes the schema, the classes of Python and the
+// The tables of reports and options as JSON: scripts/docs/records.py writes the schema, the classes of Python and the
 // interfaces of TypeScript from them.
 #include <set>
+#include <span>
 #include <string>
 
 #include "reports/json_of.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "temper/detail/optimize_table.hpp"
 #ifdef TEMPER_WITH_ERRORS
 #include "temper/errors.hpp"
 #include "temper/tets/errors.hpp"
@@ -13,6 +15,11 @@
 
 namespace temper::app {
 namespace {
+
+std::string_view word(OptionKind kind) {
+  constexpr std::string_view kNames[] = {"count", "number", "choice", "length_parameter", "vertex"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
 
 std::string_view word(FieldType::Kind kind) {
   constexpr std::string_view kNames[] = {"flag",   "count",   "whole",       "number", "text",
@@ -70,9 +77,7 @@ void add_all(Tables& tables) {
   (tables.add(table_of(static_cast<const Reports*>(nullptr))), ...);
 }
 
-}  // namespace
-
-std::string report_tables_json() {
+Json json_of_reports() {
   Tables tables;
   add_all<Quality, tets::Quality, OptimizeReport, tets::OptimizeReport, Progress, TraceEvent, io::DataReport, Outcome,
           Verdict, DecSummary, tets::DecSummary, DecRecord, TetDecRecord, ExplanationReport, tets::ExplanationReport,
@@ -83,7 +88,40 @@ std::string report_tables_json() {
   for (const CellKinds kind : kEachKind)
     tables.add(with_subject(
         kind, [](auto subject) -> const ReportTable& { return decltype(subject)::table_of_data(nullptr); }));
-  return dump(tables.list());
+  return tables.list();
+}
+
+Json json_of_options() {
+  Json rows = Json::array();
+  for (const OptionRow& row : option_rows()) {
+    rows.push_back({{"name", row.name},
+                    {"sentence", row.sentence},
+                    {"kind", word(row.kind)},
+                    {"cells", name(row.cells)},
+                    {"choices", row.choices},
+                    {"optional", row.optional},
+                    {"range", option_range_text(row)},
+                    {"absent_name", row.absent_name},
+                    {"absent", row.absent},
+                    {"default", option_text(row, row.get({}))}});
+  }
+  return rows;
+}
+
+Json json_of_words(std::span<const Preset> presets) {
+  Json rows = Json::array();
+  for (const Preset& preset : presets) rows.push_back({{"name", preset.name}, {"sentence", preset.sentence}});
+  return rows;
+}
+
+}  // namespace
+
+std::string tables_json() {
+  return dump({{"reports", json_of_reports()},
+               {"options", json_of_options()},
+               {"targets", json_of_words(targets())},
+               {"efforts", json_of_words(efforts())},
+               {"keeps", json_of_words(keeps())}});
 }
 
 }  // namespace temper::app

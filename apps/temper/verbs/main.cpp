@@ -79,8 +79,8 @@ Exit run(const Arguments& words) {
     of_verb.erase(of_verb.begin() + 1);
     return run_verb(words[1], of_verb);
   }
-  if (first == "--help=reports") {  // for scripts/docs/records.py
-    print(report_tables_json());
+  if (first == "--help=tables") {  // for scripts/docs/records.py
+    print(tables_json());
     return Exit::done;
   }
   if (print_other_help(words)) return Exit::done;

@@ -1,4 +1,4 @@
-// Written by build.mjs --options from the tables in the library. Do not edit.
+// Written by scripts/docs/records.py --write from the tables in the library. Do not edit.
 import type { LengthParameterLike } from './types.ts';
 
 /** Use of the mesh.
@@ -162,7 +162,7 @@ export interface OptimizeOptions {
   seed?: number;
   /** Solver whose measures the guard keeps. No measure of it becomes worse than in the input. If the input meets the limits of D-Flow FM, ADCIRC or MPAS, it comes back. Default: "none". */
   guard?: "none" | "fem" | "adcirc" | "dflowfm" | "mpas";
-  /** Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never falls below it, or below the least one of the input if that is smaller. 60: the input's. 0: no limit; at least 0 and at most 60. Default: 0. */
+  /** Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never falls below it, or below the least one of the input if that is smaller. 60: the input's. 0: no limit. For tetrahedra it is about dihedral angles, and bounds the least alone; at least 0 and at most 60. Default: 0. */
   guard_angle?: number;
   /** Bound of the guard for the least length of an inner edge over the size of its triangles. 1: the input's. 0: no limit; at least 0 and at most 1. Default: 0. */
   guard_edge?: number;

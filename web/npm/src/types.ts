@@ -97,8 +97,6 @@ export interface OptionRow {
   name: string;
   group: string;
   sentence: string;
-  /** Type in TypeScript. */
-  type: string;
   choices: (string | number)[];
   /** The value may be null. */
   optional: boolean;
