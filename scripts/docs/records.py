@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Writes what follows from the tables of reports and options: the schema of JSON, the classes of Python, the types of TypeScript.
+"""Writes what follows from the tables of the program: the schema of JSON, the classes of Python, the types of TypeScript, tables of docs/.
 
     records.py PROGRAM           exit 1 and one line a file that is not what the tables say
     records.py --write PROGRAM   writes the files
 
 `PROGRAM --help=tables` prints the tables. schema.json beside this script has the rest of the schema: "fields" in it
-names tables whose fields an object has, besides its own properties.
+names tables whose fields an object has, besides its own properties. A table of a page follows a mark:
+
+    <!-- keys of NAME -->                  what the schema has under this name, without measures
+    <!-- measures of triangles -->         or "of solvers": those that a community names; or "of tetrahedra"
 """
 
 import decimal
@@ -226,12 +229,54 @@ def typescript_options(said):
     return text + "}\n"
 
 
+# --- pages -------------------------------------------------------------------------------------------------------
+
+MARK = re.compile(r"(?<=<!-- )(keys|measures) of (\w+)( -->\n\n)(?:\|.*\n)*\n*")
+MOST_KEYS = 8  # of an object in the row of another key
+
+
+def inner(item, made):
+    """What the values of a key are: words, or keys."""
+    item = item.get("items", item.get("anyOf", [item])[0])
+    item = item.get("items", item)
+    keys = item.get("enum") or list(made["$defs"].get(item.get("$ref", "").rpartition("/")[2], {}).get("properties", ()))
+    return ": " + ", ".join(f"`{key}`" for key in keys) if 0 < len(keys) <= MOST_KEYS else ""
+
+
+def table_of_keys(name, made, said):
+    measures = {row["key"] for rows in said["measures"] for row in rows}
+    rows = [(f"`{key}`", item.get("description", "").rstrip(".") + inner(item, made)) for key, item in made["$defs"][name]["properties"].items() if key not in measures]
+    return [("key", "value"), *rows]
+
+
+def table_of_measures(whose, said):
+    rows = [row for row in said["measures"][whose == "tetrahedra"] if whose == "tetrahedra" or bool(row["community"]) == (whose == "solvers")]
+    made = [("`--require`, JSON", "short", "code", "what", "wanted")]
+    for row in rows:
+        wanted = "–" if row["wanted"] is None else f"{row['sign']} {row['wanted']:g}"
+        made.append((f"`{row['key']}`", f"`{row['alias']}`" * bool(row["alias"]), row["community"], row["definition"], wanted))
+    return made if whose == "solvers" else [cells[:2] + cells[3:] for cells in made]
+
+
+def page(text, made, said):
+    def table(match):
+        rows = table_of_keys(match[2], made, said) if match[1] == "keys" else table_of_measures(match[2], said)
+        rows = [[cell.replace("|", "\\|") for cell in row] for row in rows]
+        lines = [f"| {' | '.join(row)} |" for row in rows]
+        return f"{match[1]} of {match[2]}{match[3]}" + "\n".join([lines[0], "|" + "-|" * len(rows[0]), *lines[1:]]) + "\n\n"
+
+    return MARK.sub(table, text).rstrip() + "\n"
+
+
 def main(program, write=False):
     said = json.loads(subprocess.run([program, "--help=tables"], check=True, capture_output=True, text=True, encoding="utf-8").stdout)
     tables = said["reports"]
     looks = set(re.findall(r"^class (\w+)", (ROOT / "python/temper/_looks.py").read_text(encoding="utf-8"), re.M))
+    made = schema(tables)
+    pages = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs/reference").rglob("*.md"))}
     files = {
-        f"docs/schema/temper-{VERSION}.schema.json": schema(tables),
+        **{name: page(text, json.loads(made), said) for name, text in pages.items()},
+        f"docs/schema/temper-{VERSION}.schema.json": made,
         "python/temper/_reports.py": python(tables, looks),
         "web/npm/src/records.ts": typescript(tables),
         "web/npm/src/options.ts": typescript_options(said),

@@ -12,7 +12,6 @@ import warnings
 
 import numpy as np
 import pytest
-from conftest import ROOT
 
 import temper
 
@@ -390,17 +389,3 @@ def test_operators_take_a_coefficient_and_know_named_parts():
             temper.dec_operators(mesh, coefficient=wrong)
     with pytest.raises(TypeError, match="tensor is for triangles alone"):
         temper.dec_operators(mesh, tensor=(1, 0, 1))
-
-
-def test_limits_lists_the_measures():
-    text = (ROOT / "docs" / "reference" / "limits.md").read_text(encoding="utf-8")
-    signs = {"equal": "=", "larger": "≥", "less": "≤"}
-    expected = []
-    for tetrahedra in (False, True):
-        for row in temper.quality_measures(tetrahedra=tetrahedra):
-            alias, community = f"`{row.alias}`" if row.alias else "", "" if tetrahedra else f" {row.community} |"
-            wanted = "–" if row.wanted is None else f"{signs[row.better]} {row.wanted:g}"
-            if tetrahedra or row.community:
-                definition = row.definition.replace("|", "\\|")
-                expected.append(f"| `{row.key}` | {alias} |{community} {definition} | {wanted} |")
-    assert [line for line in text.splitlines() if line.startswith("| `") and "`--require`" not in line] == expected

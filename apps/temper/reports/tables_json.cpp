@@ -1,5 +1,5 @@
-// The tables of reports and options as JSON: scripts/docs/records.py writes the schema, the classes of Python and the
-// interfaces of TypeScript from them.
+// The tables of reports, measures and options as JSON: scripts/docs/records.py writes the schema, the classes of Python,
+// the types of TypeScript and tables of the documentation from them.
 #include <set>
 #include <span>
 #include <string>
@@ -7,6 +7,7 @@
 #include "reports/json_of.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "subject.hpp"
 #include "temper/detail/optimize_table.hpp"
 #ifdef TEMPER_WITH_ERRORS
 #include "temper/errors.hpp"
@@ -108,6 +109,21 @@ Json json_of_options() {
   return rows;
 }
 
+template <class Subject>
+Json json_of_measures() {
+  constexpr std::string_view kSigns[] = {"=", "≥", "≤"};
+  Json rows = Json::array();
+  for (const auto& row : Subject::measures()) {
+    rows.push_back({{"key", row.key},
+                    {"alias", row.alias},
+                    {"community", row.community},
+                    {"definition", row.definition},
+                    {"sign", kSigns[static_cast<std::size_t>(row.better)]},
+                    {"wanted", row.wanted ? Json(*row.wanted) : Json()}});
+  }
+  return rows;
+}
+
 Json json_of_words(std::span<const Preset> presets) {
   Json rows = Json::array();
   for (const Preset& preset : presets) rows.push_back({{"name", preset.name}, {"sentence", preset.sentence}});
@@ -117,7 +133,8 @@ Json json_of_words(std::span<const Preset> presets) {
 }  // namespace
 
 std::string tables_json() {
-  return dump({{"reports", json_of_reports()},
+  return dump({{"measures", {json_of_measures<Triangles>(), json_of_measures<Tetrahedra>()}},
+               {"reports", json_of_reports()},
                {"options", json_of_options()},
                {"targets", json_of_words(targets())},
                {"efforts", json_of_words(efforts())},
