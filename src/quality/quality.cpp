@@ -21,6 +21,7 @@
 #include "mesh/blocks.hpp"
 #include "mesh/curve.hpp"
 #include "quality/measure.hpp"
+#include "quality/measures_table.hpp"
 #include "regularity/duals.hpp"
 #include "size/solver_measures.hpp"
 #include "temper/detail/executor.hpp"
@@ -29,6 +30,8 @@
 
 namespace temper {
 namespace {
+
+using namespace measured;
 
 /// Ratios of ℓ / |dual| over all interior edges; 1 without any.
 struct Transmissibilities {
@@ -111,52 +114,37 @@ struct LeastDual {
   friend auto operator<=>(const LeastDual&, const LeastDual&) = default;
 };
 
-struct Tally {
-  explicit Tally(std::size_t n_worst) : worst(n_worst) {}
+struct Tally : gathered::Sums<Quality, kMeasures> {
+  explicit Tally(std::size_t n_worst) : worst(n_worst) {
+    report.histograms = {empty_angle_histogram(), empty_height_histogram(), empty_crossing_histogram()};
+  }
 
-  std::size_t edges = 0, boundary_edges = 0;
-  std::size_t inverted_triangles = 0, orthocenters_outside = 0, well_centered = 0;
-  std::size_t edges_not_crossed = 0;
-  std::array<std::size_t, 3> negative_duals = {}, nonpositive_duals = {};  // of each DualKind
   Ranked<LeastDual> least_dual = {std::numeric_limits<double>::infinity(), {}};
-  double min_h_over_l = std::numeric_limits<double>::infinity();
-  double min_d_over_l = std::numeric_limits<double>::infinity();
-  double min_angle_deg = std::numeric_limits<double>::infinity();
-  double max_angle_deg = 0;
   WorstList<TriangleId> worst;
-  Histogram angles = empty_angle_histogram();
-  Histogram h_over_l = empty_height_histogram();
-  Histogram d_over_l = empty_crossing_histogram();
 
+  using Sums::add;
   /// `original`: the number of the triangle in messages.
   void add(const Mesh& mesh, TriangleId t, TriangleId original);
   void merge(const Tally& other);
 
  private:
-  void add_edge(const Mesh& mesh, HalfedgeId h, const TriangleMeasure& m, int k);
   void add_dual(DualKind kind, Sign sign, Ranked<LeastDual> dual);
 };
 
 void Tally::add(const Mesh& mesh, TriangleId t, TriangleId original) {
   const TriangleMeasure m = measure_triangle(mesh, t);
-  inverted_triangles += m.orientation == Sign::negative;
-  orthocenters_outside += !m.orthocenter_inside();
-  well_centered += m.well_centered();
+  add(Triangle{mesh, t, m});
   worst.offer({m.margin(), original});
   for (int k = 0; k < 3; ++k) {
-    min_h_over_l = std::min(min_h_over_l, m.h_over_l[k]);
-    min_angle_deg = std::min(min_angle_deg, m.angle_deg[k]);
-    max_angle_deg = std::max(max_angle_deg, m.angle_deg[k]);
-    angles.add(m.angle_deg[k]);
     const HalfedgeId h = Mesh::halfedge(t, k);
-    if (mesh.is_diagonal(h)) {
-      edges += mesh.is_edge_representative(h);
-      continue;
-    }
-    h_over_l.add(m.h_over_l[k]);
+    add(Side{mesh, h, m, k});
+    report.histograms.angles.add(m.angle_deg[k]);
+    if (mesh.is_diagonal(h)) continue;
+    report.histograms.h_over_l.add(m.h_over_l[k]);
     if (is_interface(mesh, h)) add_dual(DualKind::region, m.h_sign[k], {m.h_over_l[k], {original, k}});
     if (!mesh.is_edge_representative(h)) continue;
-    add_edge(mesh, h, m, k);
+    add(Edge{mesh, h, m, k});
+    report.histograms.d_over_l.add(m.d_over_l[k]);
     const DualKind kind = mesh.is_boundary(h) ? DualKind::boundary : DualKind::inside;
     const Sign sign = mesh.is_boundary(h) ? m.h_sign[k] : dual_sign(mesh, h);
     const double dual = mesh.is_boundary(h) ? m.h_over_l[k] : dual_over_length(mesh, h, kind, sign);
@@ -164,46 +152,25 @@ void Tally::add(const Mesh& mesh, TriangleId t, TriangleId original) {
   }
 }
 
-void Tally::add_edge(const Mesh& mesh, HalfedgeId h, const TriangleMeasure& m, int k) {
-  ++edges;
-  edges_not_crossed += !m.crossed[k];
-  min_d_over_l = std::min(min_d_over_l, m.d_over_l[k]);
-  d_over_l.add(m.d_over_l[k]);
-  boundary_edges += mesh.is_boundary(h);
-}
-
 void Tally::add_dual(DualKind kind, Sign sign, Ranked<LeastDual> dual) {
-  negative_duals[static_cast<std::size_t>(kind)] += sign == Sign::negative;
-  nonpositive_duals[static_cast<std::size_t>(kind)] += sign != Sign::positive;
   dual.margin = with_sign(dual.margin, sign);
+  add(gathered::Dual{kind, sign, dual.margin});
   least_dual = std::min(least_dual, dual);
 }
 
 void Tally::merge(const Tally& other) {
-  edges += other.edges;
-  boundary_edges += other.boundary_edges;
-  inverted_triangles += other.inverted_triangles;
-  orthocenters_outside += other.orthocenters_outside;
-  well_centered += other.well_centered;
-  for (std::size_t kind = 0; kind < 3; ++kind) {
-    negative_duals[kind] += other.negative_duals[kind];
-    nonpositive_duals[kind] += other.nonpositive_duals[kind];
-  }
+  Sums::merge(other);
   least_dual = std::min(least_dual, other.least_dual);
-  edges_not_crossed += other.edges_not_crossed;
-  min_h_over_l = std::min(min_h_over_l, other.min_h_over_l);
-  min_d_over_l = std::min(min_d_over_l, other.min_d_over_l);
-  min_angle_deg = std::min(min_angle_deg, other.min_angle_deg);
-  max_angle_deg = std::max(max_angle_deg, other.max_angle_deg);
   worst.merge(other.worst);
-  angles.merge(other.angles);
-  h_over_l.merge(other.h_over_l);
-  d_over_l.merge(other.d_over_l);
+  report.histograms.angles.merge(other.report.histograms.angles);
+  report.histograms.h_over_l.merge(other.report.histograms.h_over_l);
+  report.histograms.d_over_l.merge(other.report.histograms.d_over_l);
 }
 
 constexpr std::size_t kBlock = 8192;  // triangles: some milliseconds of work, some hundred blocks for a million
 
-/// `originals`: the number of each triangle in messages; empty if all are equal.
+/// All but SolverMeasures, transmissibilities and energies. `originals`: the number of each triangle in messages; empty
+/// if all are equal.
 Tally tally(const Mesh& mesh, const IdVector<TriangleId, TriangleId>& originals, const QualityOptions& options) {
   const std::size_t n = mesh.n_triangles();
   std::vector<Tally> blocks((n + kBlock - 1) / kBlock, Tally(options.worst));
@@ -214,6 +181,8 @@ Tally tally(const Mesh& mesh, const IdVector<TriangleId, TriangleId>& originals,
   });
   Tally all(options.worst);
   for (const Tally& block : blocks) all.merge(block);
+  all.add(mesh);
+  all.end(n);
   return all;
 }
 
@@ -237,42 +206,15 @@ struct Places {
   LeastDual least_dual;
 };
 
-void set_duals(Quality& q, const Tally& sums) {
-  q.non_regular_edges = sums.negative_duals[0];
-  q.negative_boundary_duals = sums.negative_duals[1];
-  q.negative_region_coefficients = sums.negative_duals[2];
-  q.nonpositive_distances = sums.nonpositive_duals[0];
-  q.nonpositive_boundary_distances = sums.nonpositive_duals[1];
-  q.nonpositive_region_distances = sums.nonpositive_duals[2];
-}
-
 /// All but places, which it returns.
 Places measure(Quality& q, const Mesh& mesh, const IdVector<TriangleId, TriangleId>& originals,
                const QualityOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   const Tally sums = tally(mesh, originals, options);
+  q = sums.report;
   static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.brief, options.executor);
-  q.vertices = mesh.n_vertices();
-  q.triangles = mesh.n_triangles();
-  q.edges = sums.edges;
-  q.boundary_edges = sums.boundary_edges;
-  q.regions = count_regions(mesh, mesh.triangles());
-  q.histograms.angles = sums.angles;
-  q.histograms.h_over_l = sums.h_over_l;
-  q.histograms.d_over_l = sums.d_over_l;
   const Places places = {sums.worst, sums.least_dual.element};
   if (q.triangles == 0) return places;
-
-  q.inverted_triangles = sums.inverted_triangles;
-  set_duals(q, sums);
-  q.min_coefficient = sums.least_dual.margin;
-  q.orthocenters_outside = sums.orthocenters_outside;
-  q.edges_not_crossed = sums.edges_not_crossed;
-  q.well_centered_fraction = static_cast<double>(sums.well_centered) / static_cast<double>(q.triangles);
-  q.min_h_over_l = sums.min_h_over_l;
-  q.min_d_over_l = sums.min_d_over_l;
-  q.min_angle_deg = sums.min_angle_deg;
-  q.max_angle_deg = sums.max_angle_deg;
   const Transmissibilities transmissibilities = compare_transmissibilities(mesh, options.executor);
   q.max_transmissibility_over_median = transmissibilities.max_over_median;
   q.transmissibility_ratio = transmissibilities.max_over_min;
@@ -287,6 +229,8 @@ void describe_all(Quality& q, const Mesh& original, const Places& places) {
 }
 
 }  // namespace
+
+std::span<const QualityMeasure> quality_measures() { return gathered::plain_rows<kMeasures>(); }
 
 std::size_t violations(const Quality& q, Criterion criterion) {
   if (criterion == Criterion::coefficients)

@@ -15,27 +15,29 @@
 #include "tets/quality/coefficients.hpp"
 #include "tets/quality/duals.hpp"
 #include "tets/quality/measure.hpp"
+#include "tets/quality/measures_table.hpp"
 
 namespace temper::tets {
 namespace {
 
+using namespace measured;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kBlock = 4096;  // tetrahedra: some milliseconds of work
 
-/// The sums of the report over a run of tetrahedra. Each face is counted by the halfface that stands for it.
-struct Tally {
-  explicit Tally(std::size_t n_worst) : worst(n_worst) {}
+using Sums = gathered::Sums<Quality, kMeasures>;
 
-  std::size_t boundary_faces = 0, inverted = 0, outside = 0;
-  std::array<std::size_t, 3> negative_duals = {}, nonpositive_duals = {};  // of each DualKind
+/// A run of tetrahedra. Each face is counted by the halfface that stands for it.
+struct Tally : Sums {
+  explicit Tally(std::size_t n_worst) : worst(n_worst) {
+    report.histograms = {empty_angle_histogram(), empty_height_histogram()};
+  }
+
   Ranked<HalffaceId> least_dual = {kInfinity, {}};
-  std::size_t faces_not_crossed = 0, completely = 0;
-  double min_h = kInfinity, min_face_h = kInfinity, min_dihedral = kInfinity, max_dihedral = 0;
-  double volume = 0, min_volume = kInfinity, max_volume = -kInfinity;
   std::vector<double> transmissibilities = {};
   WorstList<TetId> worst;
-  Histogram dihedrals = empty_angle_histogram(), h_over_l = empty_height_histogram();
 
+  using Sums::add;
   void add(const TetMesh& mesh, TetId t);
   void merge(const Tally& other);
 
@@ -46,22 +48,17 @@ struct Tally {
 
 void Tally::add(const TetMesh& mesh, TetId t) {
   const TetMeasure m = measure_tetrahedron(mesh.points(t));
-  inverted += m.orientation != Sign::positive;
-  outside += !m.orthocenter_inside();
-  completely += m.orthocenter_inside() && has_all_crossed(mesh, t);
+  add(Tetrahedron{mesh, t, m});
   worst.offer({m.margin(), t});
-  volume += m.volume;
-  min_volume = std::min(min_volume, m.volume), max_volume = std::max(max_volume, m.volume);
   for (const double angle : m.dihedral_deg) {
-    min_dihedral = std::min(min_dihedral, angle), max_dihedral = std::max(max_dihedral, angle);
-    dihedrals.add(angle);
+    add(Dihedral{angle});
+    report.histograms.dihedrals.add(angle);
   }
-  for (int f = 0; f < 4; ++f) {
-    min_h = std::min(min_h, m.h_over_l[std::size_t(f)]);
-    h_over_l.add(m.h_over_l[std::size_t(f)]);
-    const HalffaceId h = TetMesh::halfface(t, f);
-    if (!mesh.is_boundary(h) && mesh.bounds_region(h))
-      add_dual(DualKind::region, m.h_sign[std::size_t(f)], m.h_over_l[std::size_t(f)], h);
+  for (std::size_t f = 0; f < 4; ++f) {
+    const HalffaceId h = TetMesh::halfface(t, static_cast<int>(f));
+    add(Side{mesh, h, m, f});
+    report.histograms.h_over_l.add(m.h_over_l[f]);
+    if (!mesh.is_boundary(h) && mesh.bounds_region(h)) add_dual(DualKind::region, m.h_sign[f], m.h_over_l[f], h);
     if (mesh.is_face_representative(h)) add_face(mesh, h, m);
   }
 }
@@ -69,12 +66,10 @@ void Tally::add(const TetMesh& mesh, TetId t) {
 void Tally::add_face(const TetMesh& mesh, HalffaceId h, const TetMeasure& m) {
   const FacePoints face = points_of(mesh, h);
   const auto& [a, b, c] = face;
-  faces_not_crossed += !is_crossed(face);
-  for (const auto& [p, q, r] : {FacePoints{a, b, c}, FacePoints{b, c, a}, FacePoints{c, a, b}})
-    min_face_h = std::min(min_face_h, signed_height(p, q, r) / length(q.position() - p.position()));
+  add(Face{mesh, h, face});
+  for (const auto& [p, q, r] : {FacePoints{a, b, c}, FacePoints{b, c, a}, FacePoints{c, a, b}}) add(FaceEdge{p, q, r});
   const std::size_t f = h.index % 4;
   if (mesh.is_boundary(h)) {
-    ++boundary_faces;
     add_dual(DualKind::boundary, m.h_sign[f], m.h_over_l[f], h);
     return;
   }
@@ -86,33 +81,18 @@ void Tally::add_face(const TetMesh& mesh, HalffaceId h, const TetMeasure& m) {
 }
 
 void Tally::add_dual(DualKind kind, Sign sign, double over_l, HalffaceId h) {
-  negative_duals[static_cast<std::size_t>(kind)] += sign == Sign::negative;
-  nonpositive_duals[static_cast<std::size_t>(kind)] += sign != Sign::positive;
-  least_dual = std::min(least_dual, {with_sign(over_l, sign), h});
+  const gathered::Dual dual = {kind, sign, with_sign(over_l, sign)};
+  add(dual);
+  least_dual = std::min(least_dual, {dual.over_l, h});
 }
 
 void Tally::merge(const Tally& other) {
-  boundary_faces += other.boundary_faces;
-  inverted += other.inverted;
-  for (std::size_t kind = 0; kind < 3; ++kind) {
-    negative_duals[kind] += other.negative_duals[kind];
-    nonpositive_duals[kind] += other.nonpositive_duals[kind];
-  }
+  Sums::merge(other);
+  report.histograms.dihedrals.merge(other.report.histograms.dihedrals);
+  report.histograms.h_over_l.merge(other.report.histograms.h_over_l);
   least_dual = std::min(least_dual, other.least_dual);
-  outside += other.outside;
-  faces_not_crossed += other.faces_not_crossed;
-  completely += other.completely;
-  min_h = std::min(min_h, other.min_h);
-  min_face_h = std::min(min_face_h, other.min_face_h);
-  min_dihedral = std::min(min_dihedral, other.min_dihedral);
-  max_dihedral = std::max(max_dihedral, other.max_dihedral);
-  volume += other.volume;
-  min_volume = std::min(min_volume, other.min_volume);
-  max_volume = std::max(max_volume, other.max_volume);
   transmissibilities.insert(transmissibilities.end(), other.transmissibilities.begin(), other.transmissibilities.end());
   worst.merge(other.worst);
-  dihedrals.merge(other.dihedrals);
-  h_over_l.merge(other.h_over_l);
 }
 
 Tally tally(const TetMesh& mesh, const QualityOptions& options) {
@@ -126,35 +106,22 @@ Tally tally(const TetMesh& mesh, const QualityOptions& options) {
   return all;
 }
 
-struct EdgeTally {
-  std::size_t not_crossed = 0;
-  double min_d = kInfinity;
-};
-
-EdgeTally tally_edges(const TetMesh& mesh, const EdgeTable& edges, Executor* executor) {
-  std::vector<EdgeTally> blocks((mesh.n_vertices() + kLoopBlock - 1) / kLoopBlock);
+Sums tally_edges(const TetMesh& mesh, Executor* executor) {
+  const EdgeTable edges(mesh, executor);
+  std::vector<Sums> blocks((mesh.n_vertices() + kLoopBlock - 1) / kLoopBlock);
   for_blocks(mesh.n_vertices(), executor, [&](std::size_t first, std::size_t last) {
-    EdgeTally& sums = blocks[first / kLoopBlock];
+    Sums& sums = blocks[first / kLoopBlock];
     for (std::size_t a = first; a < last; ++a) {
       const WeightedPoint p = mesh.point(VertexId(a));
-      for (const VertexId b : edges.greater(VertexId(a))) {
-        const WeightedPoint q = mesh.point(b);
-        const double d = dual_crossing(p, q) / length(q.position() - p.position());
-        sums.not_crossed += !is_crossed(p, q);
-        sums.min_d = std::min({sums.min_d, d, 1 - d});
-      }
+      for (const VertexId b : edges.greater(VertexId(a))) sums.add(Edge{p, mesh.point(b)});
     }
   });
-  EdgeTally all;
-  for (const EdgeTally& block : blocks) {
-    all.not_crossed += block.not_crossed;
-    all.min_d = std::min(all.min_d, block.min_d);
-  }
+  Sums all;
+  for (const Sums& block : blocks) all.merge(block);
   return all;
 }
 
-struct CoefficientTally {
-  std::array<std::size_t, 3> negative = {};  // of each DualKind
+struct CoefficientTally : Sums {
   Ranked<std::array<VertexId, 2>> least = {kInfinity, {}};
 };
 
@@ -162,12 +129,12 @@ CoefficientTally tally_coefficients(const TetMesh& mesh, Executor* executor) {
   const Coefficients coefficients(mesh, executor);
   std::vector<CoefficientTally> blocks(coefficients.n_blocks());
   coefficients.visit(executor, [&](std::size_t b, const EdgeCoefficient& c) {
-    blocks[b].negative[static_cast<std::size_t>(c.kind)] += c.sign == Sign::negative;
+    blocks[b].add(c);
     blocks[b].least = std::min(blocks[b].least, {c.over_l, c.vertices});
   });
   CoefficientTally all;
   for (const CoefficientTally& block : blocks) {
-    for (std::size_t kind = 0; kind < 3; ++kind) all.negative[kind] += block.negative[kind];
+    all.merge(block);
     all.least = std::min(all.least, block.least);
   }
   return all;
@@ -178,24 +145,6 @@ PlaceOf<n> place_of(const TetMesh& mesh, const std::array<VertexId, n>& vertices
   PlaceOf<n> place = {vertices, {}};
   for (const VertexId v : vertices) place.at = place.at + 1.0 / n * mesh.position(v);
   return place;
-}
-
-void set_duals(Quality& q, const TetMesh& mesh, const Tally& sums) {
-  q.non_regular_faces = sums.negative_duals[0];
-  q.negative_boundary_duals = sums.negative_duals[1];
-  q.nonpositive_distances = sums.nonpositive_duals[0];
-  q.nonpositive_boundary_distances = sums.nonpositive_duals[1];
-  q.nonpositive_region_distances = sums.nonpositive_duals[2];
-  q.min_distance = sums.least_dual.margin;
-  q.min_distance_place = place_of(mesh, mesh.vertices(sums.least_dual.element));
-}
-
-void set_coefficients(Quality& q, const TetMesh& mesh, const CoefficientTally& sums) {
-  q.negative_coefficients = sums.negative[0];
-  q.negative_boundary_coefficients = sums.negative[1];
-  q.negative_region_coefficients = sums.negative[2];
-  q.min_coefficient = sums.least.margin;
-  q.min_coefficient_place = place_of(mesh, sums.least.element);
 }
 
 void compare_transmissibilities(Quality& q, std::vector<double>& values) {
@@ -209,6 +158,8 @@ void compare_transmissibilities(Quality& q, std::vector<double>& values) {
 
 }  // namespace
 
+std::span<const QualityMeasure> quality_measures() { return gathered::plain_rows<kMeasures>(); }
+
 std::size_t violations(const Quality& q, Criterion criterion) {
   if (criterion == Criterion::well_centered) return q.orthocenters_outside;
   if (criterion == Criterion::coefficients)
@@ -219,39 +170,18 @@ std::size_t violations(const Quality& q, Criterion criterion) {
 }
 
 Quality quality(const TetMesh& mesh, const QualityOptions& options) {
-  Quality q;
   Tally sums = tally(mesh, options);
-  const EdgeTable edges(mesh, options.executor);
-  const EdgeTally of_edges = tally_edges(mesh, edges, options.executor);
+  sums.Sums::merge(tally_edges(mesh, options.executor));
+  const CoefficientTally coefficients = tally_coefficients(mesh, options.executor);
+  sums.Sums::merge(coefficients);
+  Quality& q = sums.report;
   const auto on_boundary = boundary_vertices(mesh);
-  q.vertices = mesh.n_vertices();
-  q.inner_vertices = static_cast<std::size_t>(std::count(on_boundary.begin(), on_boundary.end(), 0));
-  q.tetrahedra = mesh.n_tetrahedra();
-  q.faces = mesh.n_faces();
-  q.boundary_faces = sums.boundary_faces;
-  q.edges = edges.n_edges();
-  q.regions = count_regions(mesh, mesh.tetrahedra());
-  q.histograms.dihedrals = sums.dihedrals;
-  q.histograms.h_over_l = sums.h_over_l;
-  if (q.tetrahedra == 0) return q;
-
-  const auto fraction = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(q.tetrahedra); };
-  q.inverted_tetrahedra = sums.inverted;
-  set_duals(q, mesh, sums);
-  set_coefficients(q, mesh, tally_coefficients(mesh, options.executor));
-  q.orthocenters_outside = sums.outside;
-  q.faces_not_crossed = sums.faces_not_crossed;
-  q.edges_not_crossed = of_edges.not_crossed;
-  q.well_centered_fraction = fraction(q.tetrahedra - sums.outside);
-  q.completely_well_centered_fraction = fraction(sums.completely);
-  q.min_h_over_l = sums.min_h;
-  q.min_face_h_over_l = sums.min_face_h;
-  q.min_d_over_l = of_edges.min_d;
-  q.min_dihedral_deg = sums.min_dihedral;
-  q.max_dihedral_deg = sums.max_dihedral;
-  q.volume = sums.volume;
-  q.min_volume = sums.min_volume;
-  q.max_volume = sums.max_volume;
+  for (const std::uint8_t is_on : on_boundary) sums.add(Vertex{is_on != 0});
+  sums.add(mesh);
+  sums.end(mesh.n_tetrahedra());
+  if (mesh.n_tetrahedra() == 0) return q;
+  q.min_coefficient_place = place_of(mesh, coefficients.least.element);
+  q.min_distance_place = place_of(mesh, mesh.vertices(sums.least_dual.element));
   compare_transmissibilities(q, sums.transmissibilities);
   for (const auto& [margin, t] : sums.worst.sorted()) q.worst.push_back(describe(mesh, t, on_boundary));
   return q;
