@@ -490,18 +490,18 @@ struct ChangeCounts {
 struct RunReport {
   Stopped stopped = Stopped::converged;
   int sweeps = 0;
-  double seconds = 0;           ///< Time of the optimization alone [s]
-  double objective_before = 0;  ///< Objective of the input, at the final γ
-  double objective_after = 0;   ///< Objective of the result
-  std::size_t flips = 0;        ///< Changes of connectivity without a new or removed vertex
+  double seconds = 0;                         ///< Time of the optimization alone [s]
+  Objective objective = Objective::accuracy;  ///< Objective that the run lowered
+  double objective_before = 0;                ///< Objective of the input, at the final γ
+  double objective_after = 0;                 ///< Objective of the result
+  std::size_t bad_before = 0;  ///< Triangles or tetrahedra of the input that are not well-centered, before any flip
+  std::size_t bad_after = 0;   ///< The same of the result
+  std::size_t flips = 0;       ///< Changes of connectivity without a new or removed vertex
   std::size_t vertices_removed = 0;
   std::size_t vertices_inserted = 0;
   std::vector<SweepRecord> history;          ///< History of the sweeps; history[0] is the input
   std::optional<ChangeCounts> changed = {};  ///< With Change::least
   std::vector<std::string> notes;            ///< Notes for the user, in sentences
-
-  /// Counts removed and inserted vertices. `vertices`: number of each vertex in the input, as in the report.
-  void count_vertices(std::size_t n_input_vertices, const IdVector<VertexId, VertexId>& vertices);
 };
 
 /// For Objective::accuracy the objective is E of AccuracyOptions with absolute values for its edges, and with the same
@@ -513,9 +513,6 @@ struct OptimizeReport : RunReport {
   IdVector<VertexId, VertexId> vertices;
   /// Vertices without power cell that HiddenPolicy::keep left; empty while triangles are inverted.
   std::vector<VertexId> hidden_vertices;
-  Objective objective = Objective::accuracy;  ///< Objective that the run lowered
-  std::size_t bad_before = 0;                 ///< Triangles of the input that are not well-centered, before any flip
-  std::size_t bad_after = 0;                  ///< Triangles of the result that are not well-centered
   SizeChange size;
   /// Weight of each corner of each triangle of the result, three each, if its tensors have several planes. Else empty.
   std::vector<double> corner_weights;

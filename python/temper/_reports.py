@@ -377,12 +377,12 @@ class OptimizeReport(_looks.OptimizeReport):
     """Number of new vertices."""
     flips: int
     """Number of changes of connectivity without a new or removed vertex."""
-    vertices: npt.NDArray[np.int32]
-    """Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted."""
     bad_before: int
     """Number of triangles or tetrahedra of the input that are not well-centered, before any flip."""
     bad_after: int
     """The same number of the result."""
+    vertices: npt.NDArray[np.int32]
+    """Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted."""
     size: SizeChange | None
     """Change of the sizes; absent for tetrahedra."""
     changed: ChangeCounts | None

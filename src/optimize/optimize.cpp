@@ -209,7 +209,7 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   const RunEnd end = {settings, state, of_input};
   Candidate best = least_error(*std::move(found), input, end, run);
   give_back(input, std::move(best), end, std::move(sizes), run);
-  return std::move(run.report);
+  return run.take_report();
 }
 
 }  // namespace

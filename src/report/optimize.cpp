@@ -61,14 +61,11 @@ const ReportTable& table_of(const ChangeCounts*) {
 const ReportTable& table_of(const OptimizeReport*) {
   using R = OptimizeReport;
   static const ReportTable table = run_table<R>(
-      "OptimizeReport", {"objective", "Objective that the run lowered", "", &R::objective},
+      "OptimizeReport", "objective",
       {"hidden_vertices", "Vertices without a power cell that the option hidden = keep left", "", &R::hidden_vertices},
       {{"vertices",
         "Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted",
         "", &R::vertices, ShownIn::libraries},
-       {"bad_before", "Number of triangles or tetrahedra of the input that are not well-centered, before any flip", "",
-        &R::bad_before, ShownIn::libraries},
-       {"bad_after", "The same number of the result", "", &R::bad_after, ShownIn::libraries},
        {"size", "Change of the sizes; absent for tetrahedra", "", &R::size}});
   return table;
 }

@@ -12,10 +12,10 @@
 
 namespace temper {
 
-/// `objective`, `hidden_vertices`: rows in between. `more`: rows before the changes.
+/// `objective_shown`: how the objective is shown. `hidden_vertices`, `more`: rows of one kind.
 template <class R>
-[[nodiscard]] ReportTable run_table(std::string_view name, const Field<R>& objective, const Field<R>& hidden_vertices,
-                                    std::initializer_list<Field<R>> more) {
+[[nodiscard]] ReportTable run_table(std::string_view name, const Display& objective_shown,
+                                    const Field<R>& hidden_vertices, std::initializer_list<Field<R>> more) {
   ReportTable table = report_table<R>(
       name, "The result of ``optimize``.",
       {{"sweeps", "Number of sweeps", "", &R::sweeps},
@@ -25,13 +25,16 @@ template <class R>
         "hidden: deferred flips hid a vertex against the policy, and the mesh is an earlier one. sweep_limit: all "
         "sweeps for the accuracy are done, a normal end",
         "", &R::stopped},
-       objective,
-       {"objective_before", "Objective of the input, at the final γ", "", &R::objective_before},
-       {"objective_after", "Objective of the result", "", &R::objective_after},
+       {"objective", "Objective that the run lowered", "", &R::objective, objective_shown},
+       {"objective_before", "Objective of the input, at the final γ", "", &R::objective_before, "objective before"},
+       {"objective_after", "Objective of the result", "", &R::objective_after, "objective after"},
        {"vertices_removed", "Number of vertices of the input that were removed", "", &R::vertices_removed},
        hidden_vertices,
        {"vertices_inserted", "Number of new vertices", "", &R::vertices_inserted},
-       {"flips", "Number of changes of connectivity without a new or removed vertex", "", &R::flips}});
+       {"flips", "Number of changes of connectivity without a new or removed vertex", "", &R::flips},
+       {"bad_before", "Number of triangles or tetrahedra of the input that are not well-centered, before any flip", "",
+        &R::bad_before, ShownIn::libraries},
+       {"bad_after", "The same number of the result", "", &R::bad_after, ShownIn::libraries}});
   table.rows.insert(table.rows.end(), more.begin(), more.end());
   const Field<R> last[] = {
       {"changed", "What the run changed, with change = least", "", &R::changed, ShownIn::if_any},

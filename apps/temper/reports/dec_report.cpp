@@ -88,24 +88,6 @@ ReportTable operators_table(std::string_view name, std::string_view sentence,
   return table;
 }
 
-std::string line(const std::string& label, const std::string& value) {
-  constexpr std::size_t kNameColumns = 34, kValueColumns = 16;
-  return pad_right(label, kNameColumns) + pad_left(value, kValueColumns) + "\n";
-}
-/// A line per row with a label.
-std::string text_of(const ReportView& report) {
-  std::string text;
-  for (const ReportRow& row : report.table->rows) {
-    if (row.display.label.empty()) continue;
-    const FieldValue value = row.of(report.report.get());
-    const auto* number = std::get_if<double>(&value.is);
-    text +=
-        line(std::string(row.display.label),
-             number != nullptr ? fmt::format("{:.9g}", *number) : fmt::format("{}", std::get<std::int64_t>(value.is)));
-  }
-  return text;
-}
-
 std::string text_of(const std::vector<std::string>& files) {
   std::string text;
   for (const std::string& file : files) text += "wrote " + file + "\n";
@@ -113,9 +95,9 @@ std::string text_of(const std::vector<std::string>& files) {
 }
 
 std::string columns_text(const ColumnCounts& columns) {
-  std::string text = text_of(view_of(columns));
+  std::string text = labeled_text(view_of(columns));
   for (std::size_t i = 0; i < columns.volumes.size(); ++i)
-    text += line(fmt::format("volume of layer {}", i + 1), fmt::format("{:.9g}", columns.volumes[i]));
+    text += text_line(fmt::format("volume of layer {}", i + 1), fmt::format("{:.9g}", columns.volumes[i]));
   return text;
 }
 
@@ -145,12 +127,12 @@ const ReportTable& table_of(const TetDecRecord*) {
 
 std::string dec_text(const DecRecord& record) {
   const std::optional<ColumnCounts> columns = columns_of(record);
-  return text_of(view_of(record)) + (columns ? columns_text(*columns) : "") + text_of(record.files);
+  return labeled_text(view_of(record)) + (columns ? columns_text(*columns) : "") + text_of(record.files);
 }
 
 std::string dec_json(const DecRecord& record) { return dump(json_of(record)); }
 
-std::string dec_text(const TetDecRecord& record) { return text_of(view_of(record)) + text_of(record.files); }
+std::string dec_text(const TetDecRecord& record) { return labeled_text(view_of(record)) + text_of(record.files); }
 
 std::string dec_json(const TetDecRecord& record) { return dump(json_of(record)); }
 

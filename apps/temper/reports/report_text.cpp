@@ -7,6 +7,7 @@
 
 #include "console.hpp"
 #include "options/options.hpp"
+#include "reports/json_of.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
 #include "system/system.hpp"
@@ -184,6 +185,26 @@ std::vector<BriefRow<AnyQuality>> brief_rows(const AnyQuality& quality) {
 
 }  // namespace
 
+std::string text_line(std::string_view label, std::string_view value, LineWidths columns) {
+  return pad_right(label, columns.label) + pad_left(value, columns.value) + "\n";
+}
+
+std::string labeled_text(const ReportView& report, LineWidths columns) {
+  std::string text;
+  for (const ReportRow& row : report.table->rows) {
+    const FieldValue value = row.of(report.report.get());
+    if (row.display.label.empty() || std::holds_alternative<std::monostate>(value.is)) continue;
+    const auto* number = std::get_if<double>(&value.is);
+    const auto* word = std::get_if<std::string>(&value.is);
+    text += text_line(row.display.label,
+                      number != nullptr ? fmt::format("{:.9g}", *number)
+                      : word != nullptr ? *word
+                                        : json_of(value).dump(),
+                      columns);
+  }
+  return text;
+}
+
 std::string in_ascii(std::string text) {
   const auto replace = [&text](std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
@@ -257,7 +278,7 @@ std::string mesh_size(const MeshOrQuality& of) {
 namespace {
 
 std::string one_number(std::string_view label, const std::string& number) {
-  return pad_right(label, kLabelColumns) + pad_left(number, kNumberColumns) + "\n";
+  return text_line(label, number, {kLabelColumns, kNumberColumns});
 }
 std::string two_numbers(std::string_view label, const std::string& from, const std::string& to) {
   return pad_right(label, kLabelColumns) + pad_left(from, kNumberColumns) + pad_left(to, kNumberColumns) + "\n";

@@ -15,6 +15,7 @@
 #include "temper/detail/columns.hpp"
 #include "temper/detail/connectivity.hpp"
 #include "temper/detail/projection.hpp"
+#include "temper/detail/report.hpp"
 #include "temper/detail/size.hpp"
 #include "temper/explain.hpp"
 #include "temper/feasibility.hpp"
@@ -29,6 +30,14 @@ namespace temper::app {
 
 /// The tables of reports and options as JSON, for `temper --help=tables`.
 [[nodiscard]] std::string tables_json();
+
+/// Widths of a table for people.
+struct LineWidths {
+  std::size_t label = 34, value = 16;
+};
+[[nodiscard]] std::string text_line(std::string_view label, std::string_view value, LineWidths columns = {});
+/// A line per row that has a label and a value.
+[[nodiscard]] std::string labeled_text(const ReportView& report, LineWidths columns = {});
 
 // The reports of `temper operators` on the operators it wrote: as text, as JSON, and as warnings.
 

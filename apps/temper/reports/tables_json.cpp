@@ -1,5 +1,5 @@
-// The tables of reports, measures and options as JSON: scripts/docs/records.py writes the schema, the classes of Python,
-// the types of TypeScript and tables of the documentation from them.
+// The tables of reports, measures and options as JSON: scripts/docs/records.py writes the schema, the classes of
+// Python, the types of TypeScript and tables of the documentation from them.
 #include <set>
 #include <span>
 #include <string>

@@ -70,8 +70,7 @@ std::string details_text(const OptimizeSettings& s, const RunResults<Subject>& r
   std::string text = "\n" + measures_text(s, results);
   if (const std::string data = data_text(results.data, Subject::element, Subject::elements); !data.empty())
     text += "\n" + data;
-  text += fmt::format("objective {}: {:.6g} before, {:.6g} after\n", name(last_objective(report)),
-                      report.objective_before, report.objective_after);
+  text += labeled_text(view_of(report), {kLabelColumns, kNumberColumns});
   for (const std::string& note : report.notes) text += "note: " + note + "\n";
   return text + "\n";
 }

@@ -8,6 +8,8 @@
 #include "energy/whole_mesh.hpp"
 #include "mesh/curve.hpp"
 #include "optimize/result/notes.hpp"
+#include "optimize/run/changes.hpp"
+#include "optimize/run/end_of_run.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/stages/driver.hpp"
 #include "optimize/working/working_units.hpp"
@@ -100,13 +102,6 @@ bool lacks_flips(const MeshScore& input, const Settings& settings, const RunFact
 
 }  // namespace
 
-void RunReport::count_vertices(std::size_t n_input_vertices, const IdVector<VertexId, VertexId>& vertices) {
-  vertices_removed = vertices_inserted = 0;
-  if (vertices.empty()) return;
-  for (const VertexId v : vertices) vertices_inserted += v.valid() ? 0 : 1;
-  vertices_removed = n_input_vertices - (vertices.size() - vertices_inserted);
-}
-
 std::span<const std::string_view> words_of(Stopped) {
   static constexpr std::string_view kNames[] = {"converged", "max_sweeps", "max_outer",   "time_limit",
                                                 "canceled",  "tangled",    "sweep_limit", "hidden"};
@@ -132,6 +127,23 @@ InputMeasures::InputMeasures(InputMesh& input, const Settings& settings, std::op
   VertexSizes there;
   for (const VertexId v : numbers) there.push_back(sizes->of_input()[v]);
   score = temper::score(mesh, counts, settings, settings.model, numbers.empty() ? &sizes->of_input() : &there);
+}
+
+/// Counts what differs from the input. `numbers`: as in EndOfRun.
+static ChangeCounts changes_from(const Mesh& input, const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers) {
+  const auto is_old = [&](VertexId v) { return v.index < input.n_vertices(); };
+  ChangeCounts counts = changed_vertices(input, mesh, numbers, [&](VertexId v, VertexId was) {
+    return !(mesh.space().place(mesh.point(v)) == mesh.space().place(input.point(was)));
+  });
+  const auto number = [&](VertexId v) { return numbers.empty() ? v : numbers[v]; };
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_edge_representative(h)) continue;
+    const VertexId a = number(mesh.origin(h)), b = number(mesh.target(h));
+    const bool was_there =
+        is_old(a) && is_old(b) && (input.find_halfedge(a, b).valid() || input.find_halfedge(b, a).valid());
+    counts.edges_changed += was_there ? 0 : 1;
+  }
+  return counts;
 }
 
 namespace {
@@ -188,23 +200,6 @@ bool returns_input(const Rivals& rivals, const InputMesh& input, const Settings&
   return !coarser && !replaces(made, as_given, Requirement::not_worse);
 }
 
-/// Counts what differs from the input. `vertices`: number of each vertex in the input; empty if all are equal.
-ChangeCounts changes_from(const Mesh& input, const Mesh& mesh, const IdVector<VertexId, VertexId>& vertices) {
-  const auto number = [&](VertexId v) { return vertices.empty() ? v : vertices[v]; };
-  const auto is_old = [&](VertexId v) { return v.index < input.n_vertices(); };
-  ChangeCounts counts = changed_vertices(input, mesh, number, [&](VertexId v, VertexId was) {
-    return !(mesh.space().place(mesh.point(v)) == mesh.space().place(input.point(was)));
-  });
-  for (const HalfedgeId h : mesh.halfedges()) {
-    if (!mesh.is_edge_representative(h)) continue;
-    const VertexId a = number(mesh.origin(h)), b = number(mesh.target(h));
-    const bool was_there =
-        is_old(a) && is_old(b) && (input.find_halfedge(a, b).valid() || input.find_halfedge(b, a).valid());
-    counts.edges_changed += was_there ? 0 : 1;
-  }
-  return counts;
-}
-
 /// Steps can leave weights of 1e-300, which mean nothing and which files refuse.
 void drop_tiny_weights(Mesh& mesh) {
   constexpr double kTiny = 1e-100;
@@ -229,29 +224,24 @@ void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd
   }
   const bool is_new = !returns_input || rivals.flips;
   if (!returns_input) drop_tiny_weights(result.work.mesh);
-  report.objective = settings.objective;
-  report.objective_before = rivals.energy_before;
-  report.objective_after = result.score.energy;
-  report.bad_before = end.of_input.counts.bad;
-  report.bad_after = is_new ? result.score.bad : end.of_input.counts.bad;
   report.size.before = end.of_input.size;
   report.size.after = is_new ? result.size : end.of_input.size;
   report.vertices = std::move(result.vertices);
-  report.count_vertices(input.n_vertices(), report.vertices);
-  if (settings.changes_least()) {
-    report.changed = ChangeCounts();
-    if (is_new) {
-      const auto& order = result.work.order->vertices;
-      *report.changed = changes_from(input.whole(), result.work.mesh, input.is_scattered() ? order : report.vertices);
-    }
-  }
+  const std::size_t bad_before = end.of_input.counts.bad;
+  const EndOfRun<Mesh> compared = {settings.changes_least() ? &input.whole() : nullptr,
+                                   is_new ? result.work.mesh : input.whole(),
+                                   is_new && input.is_scattered() ? result.work.order->vertices : report.vertices,
+                                   input.n_vertices(),
+                                   settings.objective,
+                                   {rivals.energy_before, bad_before},
+                                   {result.score.energy, is_new ? result.score.bad : bad_before}};
+  complete(report, compared);
   if (is_new) {
     if (settings.hooks.viewer) settings.hooks.viewer(result.work.mesh);
     input.replace(std::move(result.work));
   }
   report.hidden_vertices = hidden_vertices_of(input.whole(), settings);
   add_notes(input.whole(), settings, run.facts, ending, report);
-  report.seconds = run.seconds();
 }
 
 }  // namespace

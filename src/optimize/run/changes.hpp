@@ -15,14 +15,14 @@ namespace temper {
   return static_cast<double>(at_violations) > 1.0 / 13 * static_cast<double>(n_cells);
 }
 
-/// Counts the vertices of the input that are elsewhere, or have another weight. `number(v)`: the number of v in the
-/// input, or one beyond. `is_moved(v, was)`: says whether v is elsewhere.
-template <class Mesh, class Number, class IsMoved>
-[[nodiscard]] ChangeCounts changed_vertices(const Mesh& input, const Mesh& mesh, const Number& number,
-                                            const IsMoved& is_moved) {
+/// Counts the vertices of the input that are elsewhere, or have another weight. `numbers`: as in EndOfRun.
+/// `is_moved(v, was)`: says whether v is elsewhere.
+template <class Mesh, class IsMoved>
+[[nodiscard]] ChangeCounts changed_vertices(const Mesh& input, const Mesh& mesh,
+                                            const IdVector<VertexId, VertexId>& numbers, const IsMoved& is_moved) {
   ChangeCounts counts;
   for (const VertexId v : mesh.vertices()) {
-    const VertexId was = number(v);
+    const VertexId was = numbers.empty() ? v : numbers[v];
     if (was.index >= input.n_vertices()) continue;
     counts.vertices_moved += is_moved(v, was) ? 1 : 0;
     counts.weights_changed += mesh.weight(v) == input.weight(was) ? 0 : 1;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "temper/optimize.hpp"
 
@@ -44,6 +45,12 @@ class RunOf {
     measured.sweep = report.sweeps;
     measured.seconds = seconds();
     report.history.push_back(measured);
+  }
+
+  /// Ends the clock.
+  [[nodiscard]] Report take_report() {
+    report.seconds = seconds();
+    return std::move(report);
   }
 
   Report report;

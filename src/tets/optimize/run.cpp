@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "optimize/run/changes.hpp"
+#include "optimize/run/end_of_run.hpp"
 #include "tets/mesh/tables.hpp"
 #include "tets/optimize/hot_sweeps.hpp"
 #include "tets/optimize/mobility.hpp"
@@ -16,6 +17,22 @@
 #include "tets/quality/measure.hpp"
 
 namespace temper::tets {
+
+/// Counts what differs from the input. `numbers`: as in EndOfRun, none is empty.
+static ChangeCounts changes_from(const TetMesh& input, const TetMesh& mesh,
+                                 const IdVector<VertexId, VertexId>& numbers) {
+  ChangeCounts counts = changed_vertices(
+      input, mesh, numbers, [&](VertexId v, VertexId was) { return !(mesh.position(v) == input.position(was)); });
+  const EdgeTable before(input, nullptr), after(mesh, nullptr);
+  for (const VertexId v : mesh.vertices()) {
+    for (const VertexId u : after.greater(v)) {
+      const bool is_old = std::max(numbers[v], numbers[u]).index < input.n_vertices();
+      counts.edges_changed += is_old && before.find(numbers[v], numbers[u]) ? 0 : 1;
+    }
+  }
+  return counts;
+}
+
 namespace {
 
 // No dihedral angle becomes less than about 0.8 of the least one: 1 − cosine falls to this part of it at most. A
@@ -29,23 +46,6 @@ const DiscretizationError* model_of(const TetMesh& mesh, const OptimizeOptions& 
   const bool may_have =
       options.change == Change::all && mesh.n_vertices() <= static_cast<std::size_t>(options.tets.most_error_vertices);
   return may_have ? hooks.solvers.error.get() : nullptr;
-}
-
-/// Counts what differs from the input.
-ChangeCounts changes_from(const TetMesh& input, const Draft& result) {
-  const TetMesh& mesh = result.mesh;
-  const auto& names = result.names.vertices;
-  ChangeCounts counts = changed_vertices(
-      input, mesh, [&](VertexId v) { return names[v]; },
-      [&](VertexId v, VertexId was) { return !(mesh.position(v) == input.position(was)); });
-  const EdgeTable before(input, nullptr), after(mesh, nullptr);
-  for (const VertexId v : mesh.vertices()) {
-    for (const VertexId u : after.greater(v)) {
-      const bool is_old = std::max(names[v], names[u]).index < input.n_vertices();
-      counts.edges_changed += is_old && before.find(names[v], names[u]) ? 0 : 1;
-    }
-  }
-  return counts;
 }
 
 std::string smaller_angle_note(double before, double after) {
@@ -67,7 +67,7 @@ Run::Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hoo
       most_cosine_(limit_of_angles()) {
   best_.kept.emplace(std::move(mesh), draft_.mobility);
   begin_sweeps();
-  report.objective_before = objective_of(draft_.mesh);
+  objective_before_ = objective_of(draft_.mesh);
   if (errors_.model != nullptr) errors_.unit = errors_.model->errors(draft_.mesh);
   record();
   if (changes_least() || ((errors_.model != nullptr || lowers_hot(options_)) && best_bad_ == 0)) input_ = draft_;
@@ -136,15 +136,21 @@ OptimizeReport Run::end() {
   const bool returns_input = is_input_better();
   if (returns_input) best_.kept = input_;
   Draft best = *std::move(best_.kept);
-  if (changes_least()) report.changed = changes_from(input_.mesh, best);
-  add_notes(best.mesh, returns_input);
   report.flips = best.flips;
   report.origins = origins_of(best);
-  report.count_vertices(n_before_, report.origins.vertices);
-  report.objective_after = objective_of(best.mesh);
+  const std::vector<SweepRecord>& history = report.history;
+  const std::size_t least_bad = std::ranges::min(history, {}, &SweepRecord::bad).bad;  // whose mesh is the best
+  const EndOfRun<TetMesh> compared = {changes_least() ? &input_.mesh : nullptr,
+                                      best.mesh,
+                                      best.names.vertices,
+                                      n_before_,
+                                      history.back().objective,
+                                      {objective_before_, history[0].bad},
+                                      {objective_of(best.mesh), least_bad}};
+  complete(report, compared);
+  add_notes(best.mesh, returns_input);
   result_ = std::move(best.mesh);
-  report.seconds = seconds();
-  return std::move(report);
+  return take_report();
 }
 
 void Run::add_notes(const TetMesh& mesh, bool returns_input) {

@@ -70,6 +70,7 @@ class Run : protected RunOf<OptimizeHooks, OptimizeReport> {
 
   TetMesh& result_;  // empty until the end: best_ has the mesh
   std::size_t n_before_ = result_.n_vertices();
+  double objective_before_ = 0;
 
  protected:
   AccuracyErrors errors_;  ///< The model is null for large meshes, and where few places change

@@ -1,7 +1,7 @@
 // The tables of reports on tetrahedra.
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <utility>
 
 #include "dec/coefficient_rows.hpp"
 #include "quality/measure_rows.hpp"
@@ -74,15 +74,15 @@ const std::vector<VertexId>& no_vertices(const OptimizeReport&) {
 }
 const IdVector<VertexId, VertexId>& vertices_of(const OptimizeReport& report) { return report.origins.vertices; }
 
-/// The numbers of bad tetrahedra in the history, whose best mesh is the result.
-std::size_t bad_before(const OptimizeReport& report) { return report.history.empty() ? 0 : report.history[0].bad; }
-std::size_t bad_after(const OptimizeReport& report) {
-  std::size_t least = bad_before(report);
-  for (const SweepRecord& record : report.history) least = std::min(least, record.bad);
-  return least;
-}
-Objective objective_of(const OptimizeReport& report) {
-  return report.history.empty() ? Objective::energy : report.history.back().objective;
+/// Adds the rows that triangles alone have, without values: Python has one class for both.
+void add_absent_rows(ReportTable& table) {
+  for (ReportRow row : table_of(static_cast<const temper::OptimizeReport*>(nullptr)).rows) {
+    if (std::ranges::find(table.rows, row.key, &ReportRow::key) != table.rows.end()) continue;
+    row.type.optional = true;
+    row.of = [](const void*) { return FieldValue(); };
+    row.display = ShownIn::libraries;
+    table.rows.push_back(std::move(row));
+  }
 }
 
 }  // namespace
@@ -90,13 +90,13 @@ Objective objective_of(const OptimizeReport& report) {
 const ReportTable& table_of(const OptimizeReport*) {
   using R = OptimizeReport;
   constexpr ShownIn kLibraries = ShownIn::libraries;
-  static const ReportTable table = run_table<R>(
-      "TetOptimizeReport", {"objective", "Objective that the run lowered", "", objective_of, kLibraries},
-      {"hidden_vertices", "None", "", no_vertices, kLibraries},
-      {{"vertices", "Number of each vertex in the input, −1 for inserted ones", "", vertices_of, kLibraries},
-       {"bad_before", "Number of tetrahedra of the input that are not well-centered", "", bad_before, kLibraries},
-       {"bad_after", "The same number of the result", "", bad_after, kLibraries},
-       {"size", "None", "", [](const R&) { return std::optional<SizeChange>(); }, kLibraries}});
+  static const ReportTable table = [] {
+    ReportTable made = run_table<R>(
+        "TetOptimizeReport", kLibraries, {"hidden_vertices", "None", "", no_vertices, kLibraries},
+        {{"vertices", "Number of each vertex in the input, −1 for inserted ones", "", vertices_of, kLibraries}});
+    add_absent_rows(made);
+    return made;
+  }();
   return table;
 }
 

@@ -341,7 +341,7 @@ TEST_F(Optimize, ForAccuracyMarginsHoldAndTheHistorySaysWhatEachSweepWasFor) {
   EXPECT_EQ(report["history"].back()["objective"], "accuracy");
   EXPECT_LT(report["objective_after"], report["objective_before"]);
   EXPECT_EQ(report["options"]["objective"], "accuracy");
-  EXPECT_TRUE(contains(run.out, "objective accuracy: "));
+  EXPECT_TRUE(contains(run.out, "\nobjective                           accuracy\nobjective before "));
 }
 
 TEST_F(Optimize, OptionsOfTheAccuracyObjectiveAreForItAlone) {

@@ -207,12 +207,12 @@ export interface OptimizeReport {
   vertices_inserted: number;
   /** Number of changes of connectivity without a new or removed vertex. */
   flips: number;
-  /** Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted. */
-  vertices: number[];
   /** Number of triangles or tetrahedra of the input that are not well-centered, before any flip. */
   bad_before: number;
   /** The same number of the result. */
   bad_after: number;
+  /** Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted. */
+  vertices: number[];
   /** Change of the sizes; absent for tetrahedra. */
   size: SizeChange;
   /** What the run changed, with change = least. */

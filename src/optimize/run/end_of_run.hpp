@@ -1,0 +1,46 @@
+// The members of a report that follow from the end of a run, for triangles and for tetrahedra.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "temper/optimize.hpp"
+
+namespace temper {
+
+/// The numbers of a mesh that a report compares.
+struct ReportedNumbers {
+  double objective = 0;
+  std::size_t bad = 0;
+};
+
+/// What a run has at its end. `Mesh` has a function changes_from(input, result, numbers).
+template <class Mesh>
+struct EndOfRun {
+  const Mesh* input;  ///< null, unless Change::least: others may be in another order, or freed
+  const Mesh& result;
+  /// Number of each vertex of the result in the input, or one beyond for a new one; empty if all are equal.
+  const IdVector<VertexId, VertexId>& numbers;
+  std::size_t n_input_vertices = 0;
+  Objective objective = Objective::energy;
+  ReportedNumbers before, after;
+};
+
+/// Completes a report, except for what the run counts, and its notes.
+template <class Mesh>
+void complete(RunReport& report, const EndOfRun<Mesh>& end) {
+  report.objective = end.objective;
+  report.objective_before = end.before.objective;
+  report.objective_after = end.after.objective;
+  report.bad_before = end.before.bad;
+  report.bad_after = end.after.bad;
+  if (!end.numbers.empty()) {
+    const auto kept = static_cast<std::size_t>(
+        std::ranges::count_if(end.numbers, [&](VertexId v) { return v.index < end.n_input_vertices; }));
+    report.vertices_removed = end.n_input_vertices - kept;
+    report.vertices_inserted = end.numbers.size() - kept;
+  }
+  if (end.input != nullptr) report.changed = changes_from(*end.input, end.result, end.numbers);
+}
+
+}  // namespace temper
