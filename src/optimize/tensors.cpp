@@ -9,6 +9,7 @@
 
 #include "mesh/bad_triangles.hpp"
 #include "optimize/repair/local_copy.hpp"
+#include "optimize/run/end_of_run.hpp"
 #include "temper/detail/criterion.hpp"
 #include "temper/detail/necessity.hpp"
 #include "temper/feasibility.hpp"
@@ -258,7 +259,7 @@ Expected<OptimizeReport> optimize_pieces(Mesh& mesh, const OptimizeOptions& opti
   report->vertices = std::move(whole->vertices);
   report->corner_weights = std::move(whole->corner_weights);
   report->triangle_tensors = std::move(whole->tensors);
-  report->count_vertices(mesh.n_vertices(), report->vertices);
+  count_vertices(*report, report->vertices, mesh.n_vertices());
   mesh = std::move(whole->mesh);
   return report;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "optimize/run/end_of_run.hpp"
 #include "optimize/tensors.hpp"
 #include "temper/detail/criterion.hpp"
 #include "temper/detail/location.hpp"
@@ -83,7 +84,7 @@ Expected<OptimizeReport> optimize_with_means(Mesh& mesh, const OptimizeOptions& 
     report->triangle_tensors = options.triangle_tensors;
   }
   report->corner_weights = whole->corner_weights;
-  report->count_vertices(before.n_vertices(), report->vertices);
+  count_vertices(*report, report->vertices, before.n_vertices());
   mesh = whole->mesh;
   return report;
 }

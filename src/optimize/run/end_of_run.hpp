@@ -26,6 +26,15 @@ struct EndOfRun {
   ReportedNumbers before, after;
 };
 
+/// Counts removed and inserted vertices. `numbers`: as in EndOfRun.
+inline void count_vertices(RunReport& report, const IdVector<VertexId, VertexId>& numbers,
+                           std::size_t n_input_vertices) {
+  const auto is_old = [&](VertexId v) { return v.index < n_input_vertices; };
+  const auto kept = static_cast<std::size_t>(std::ranges::count_if(numbers, is_old));
+  report.vertices_removed = numbers.empty() ? 0 : n_input_vertices - kept;
+  report.vertices_inserted = numbers.size() - kept;
+}
+
 /// Completes a report, except for what the run counts, and its notes.
 template <class Mesh>
 void complete(RunReport& report, const EndOfRun<Mesh>& end) {
@@ -34,12 +43,7 @@ void complete(RunReport& report, const EndOfRun<Mesh>& end) {
   report.objective_after = end.after.objective;
   report.bad_before = end.before.bad;
   report.bad_after = end.after.bad;
-  if (!end.numbers.empty()) {
-    const auto kept = static_cast<std::size_t>(
-        std::ranges::count_if(end.numbers, [&](VertexId v) { return v.index < end.n_input_vertices; }));
-    report.vertices_removed = end.n_input_vertices - kept;
-    report.vertices_inserted = end.numbers.size() - kept;
-  }
+  count_vertices(report, end.numbers, end.n_input_vertices);
   if (end.input != nullptr) report.changed = changes_from(*end.input, end.result, end.numbers);
 }
 
