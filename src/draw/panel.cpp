@@ -42,13 +42,44 @@ double edge_length(const Mesh& mesh, HalfedgeId h) {
   return distance(mesh.space(), a, b);
 }
 
+/// The duals of a mesh: its own, or those of its pieces in the planes of tensors, as points of the mesh's space.
+class DualPlaces {
+ public:
+  DualPlaces(const Mesh& mesh, const MetricMesh* pieces)
+      : pieces_(pieces), measured_(pieces != nullptr ? pieces->mesh : mesh) {}
+
+  /// The mesh in whose planes duals are perpendicular to edges.
+  [[nodiscard]] const Mesh& measured() const { return measured_; }
+  [[nodiscard]] bool is_negative(HalfedgeId h) const {
+    if (!measured_.is_boundary(h)) return !is_regular(measured_, h);
+    return measure_triangle(measured_, Mesh::triangle(h)).h_sign[h.index % 3] == Sign::negative;
+  }
+  [[nodiscard]] WeightedPoint center(TriangleId t) const {
+    const auto [a, b, c] = measured_.points(t);
+    return in_plane(t, orthocenter(measured_.space(), a, b, c));
+  }
+  [[nodiscard]] WeightedPoint weighted_midpoint(HalfedgeId h) const {
+    const WeightedPoint a = measured_.point(measured_.origin(h)), b = measured_.point(measured_.target(h), a);
+    return in_plane(Mesh::triangle(h), temper::weighted_midpoint(measured_.space(), a, b));
+  }
+
+ private:
+  [[nodiscard]] WeightedPoint in_plane(TriangleId t, const WeightedPoint& p) const {
+    if (pieces_ == nullptr) return p;
+    const Vec2 at = pieces_->metric(t).from_metric(p.position());
+    return {at.x, at.y, p.w};
+  }
+
+  const MetricMesh* pieces_;
+  const Mesh& measured_;
+};
+
 class PanelPainter : public Painter {
  public:
   PanelPainter(const Mesh& mesh, const Viewport& viewport, const DrawOptions& options, std::size_t number)
       : Painter(viewport, options),
         mesh_(mesh),
-        pieces_(options.pieces.empty() ? nullptr : &options.pieces[number]),
-        measured_(pieces_ != nullptr ? pieces_->mesh : mesh),
+        duals_(mesh, options.pieces.empty() ? nullptr : &options.pieces[number]),
         number_(number),
         shifts_(shifts_of(mesh.space())) {}
 
@@ -60,7 +91,7 @@ class PanelPainter : public Painter {
     if (options_.primal) draw_edges();
     draw_face_lines();
     if (options_.dual && detailed_) draw_dual();
-    if (options_.weights && detailed_ && pieces_ == nullptr) draw_weights();
+    if (options_.weights && detailed_ && options_.pieces.empty()) draw_weights();
     draw_periods();
     if (options_.near_coincident) ring_near_coincident();
     if (options_.vertex_numbers) number_vertices();
@@ -97,7 +128,7 @@ class PanelPainter : public Painter {
     const ColorScale scale = options_.colors ? scale_of(*options_.colors) : kMargins;
     Fills fills;
     for (TriangleId t : mesh_.triangles()) {
-      const TriangleMeasure measure = measure_triangle(measured_, t);
+      const TriangleMeasure measure = measure_triangle(duals_.measured(), t);
       const bool good = measure.well_centered();
       panel_.bad += good ? 0 : 1;
       if (options_.cells || (!options_.colors && !options_.fill)) continue;
@@ -186,14 +217,14 @@ class PanelPainter : public Painter {
   // of the boundary, or of an interface between tensors.
   void draw_dual() {
     IdVector<TriangleId, WeightedPoint> centers(mesh_.n_triangles());
-    for (TriangleId t : mesh_.triangles()) centers[t] = center(t);
+    for (TriangleId t : mesh_.triangles()) centers[t] = duals_.center(t);
     PathText positive, negative;
     for (HalfedgeId h : mesh_.halfedges()) {
-      if (!measured_.is_edge_representative(h)) continue;
+      if (!duals_.measured().is_edge_representative(h)) continue;
       const TriangleId here = Mesh::triangle(h), there = Mesh::triangle(mesh_.twin(h));
       const WeightedPoint near = mesh_.point(mesh_.origin(h));
-      add_line(has_negative_dual(h) ? negative : positive, beside(near, here, centers[here]),
-               measured_.is_boundary(h) ? weighted_midpoint(h) : beside(near, there, centers[there]));
+      add_line(duals_.is_negative(h) ? negative : positive, beside(near, here, centers[here]),
+               duals_.measured().is_boundary(h) ? duals_.weighted_midpoint(h) : beside(near, there, centers[there]));
     }
     panel_.dual = !positive.empty();
     panel_.negative_dual = !negative.empty();
@@ -203,31 +234,11 @@ class PanelPainter : public Painter {
     stroke(negative, "dual-negative", Palette::warning, width, dashes(width / 2).c_str());
   }
 
-  [[nodiscard]] bool has_negative_dual(HalfedgeId h) const {
-    if (!measured_.is_boundary(h)) return !is_regular(measured_, h);
-    return measure_triangle(measured_, Mesh::triangle(h)).h_sign[h.index % 3] == Sign::negative;
-  }
-
-  /// The orthocenter or the weighted midpoint, as a point of the space.
-  [[nodiscard]] WeightedPoint center(TriangleId t) const {
-    const auto [a, b, c] = measured_.points(t);
-    return in_plane(t, orthocenter(mesh_.space(), a, b, c));
-  }
-  /// A point that was measured in the metric of a triangle.
-  [[nodiscard]] WeightedPoint in_plane(TriangleId t, const WeightedPoint& p) const {
-    if (pieces_ == nullptr) return p;
-    const Vec2 at = pieces_->metric(t).from_metric(p.position());
-    return {at.x, at.y, p.w};
-  }
   /// The center of a triangle: the image with a corner near a point.
   [[nodiscard]] WeightedPoint beside(const WeightedPoint& near, TriangleId t, const WeightedPoint& center) const {
     if (!mesh_.space().is_periodic()) return center;
     const WeightedPoint corner = mesh_.point(mesh_.corners(t)[0]), image = mesh_.space().image(corner, near);
     return {center.x + (image.x - corner.x), center.y + (image.y - corner.y), center.w};
-  }
-  [[nodiscard]] WeightedPoint weighted_midpoint(HalfedgeId h) const {
-    const WeightedPoint a = measured_.point(measured_.origin(h)), b = measured_.point(measured_.target(h), a);
-    return in_plane(Mesh::triangle(h), temper::weighted_midpoint(mesh_.space(), a, b));
   }
   /// The place in the picture of a visible point that is in the box, or within `radius` of it.
   [[nodiscard]] std::optional<Vec2> seen(const WeightedPoint& p, double radius = 0) const {
@@ -297,8 +308,7 @@ class PanelPainter : public Painter {
   }
 
   const Mesh& mesh_;
-  const MetricMesh* pieces_;  // in the planes of tensors; null: there are none
-  const Mesh& measured_;
+  DualPlaces duals_;
   std::size_t number_;
   std::vector<Vec2> shifts_;
 };

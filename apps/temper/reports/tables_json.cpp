@@ -133,7 +133,10 @@ Json json_of_words(std::span<const Preset> presets) {
 }  // namespace
 
 std::string tables_json() {
-  return dump({{"measures", {json_of_measures<Triangles>(), json_of_measures<Tetrahedra>()}},
+  Json measures = Json::array();
+  for (const CellKinds cells : kEachKind)
+    measures.push_back(with_subject(cells, [](auto subject) { return json_of_measures<decltype(subject)>(); }));
+  return dump({{"measures", measures},
                {"reports", json_of_reports()},
                {"options", json_of_options()},
                {"targets", json_of_words(targets())},
