@@ -1,6 +1,7 @@
 #include "optimize/tensors.hpp"
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,6 +26,8 @@ constexpr int kRuns = 5;
 constexpr double kRoomAtInterfaces = 1.3;
 // Linear programs of larger meshes are about the neighborhoods of bad triangles alone.
 constexpr std::size_t kWhole = 500;
+// If more triangles are bad, programs take long and help little: vertices have to move.
+constexpr std::size_t kMostBad = 500;
 
 /// Refuses options that only a mesh in its own plane can have.
 std::optional<InputError> check_metric(const OptimizeOptions& options, const OptimizeHooks& hooks) {
@@ -58,6 +61,7 @@ class PiecesRun {
     options_.triangle_tensors.clear();
     options_.corner_weights.clear();
     options_.guard.depth.clear();  // waves do not know that plane
+    if (!hooks_.started) hooks_.started = std::chrono::steady_clock::now();  // the limit is of all runs together
     if (hooks.best_so_far) listen(hooks.best_so_far);
   }
 
@@ -121,6 +125,10 @@ class PiecesRun {
   [[nodiscard]] static bool goes_on(const OptimizeReport& report) {
     return report.stopped != Stopped::canceled && report.stopped != Stopped::time_limit;
   }
+  [[nodiscard]] bool is_late() const {
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - *hooks_.started;
+    return options_.time_limit > 0 && seconds.count() >= options_.time_limit;
+  }
   [[nodiscard]] std::size_t n_bad(const Mesh& mesh) const {
     return cells_at_violations(mesh, criterion_of(options_.scheme), hooks_.executor).size();
   }
@@ -145,12 +153,13 @@ class PiecesRun {
   /// are bad.
   void reweigh(OptimizeReport& report) {
     const std::size_t before = n_bad(now_.mesh);
-    if (!hooks_.solvers.lp || before == 0) return;
+    if (!hooks_.solvers.lp || before == 0 || before > kMostBad) return;
     WeightOptions wanted;
     wanted.goal = WeightGoal::elastic;
     wanted.constraints = constraints_of(criterion_of(options_.scheme));
     wanted.from_input = true;
     wanted.whole = kWhole;
+    wanted.must_stop = [this] { return is_late(); };
     const auto found = find_weights(now_, *hooks_.solvers.lp(), wanted);
     if (!found) return;
     Mesh weighted = now_.mesh;
