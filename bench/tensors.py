@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tensors of regions: two-point fluxes on meshes in the metric of each region.
 
-    bench/tensors.py [--size 0.06] [--ratios 2,10,100] [--smooth] [--weights]
+    bench/tensors.py [--size 0.06] [--ratios 2,10,100] [--smooth] [--weights] [--tetrahedra]
 
 A square has regions with different diffusion tensors K. Their axes are turned, and the ratio of the two values of each K
 is given. Edges of interfaces are edges of the mesh. `optimize` gives vertices of interfaces a weight for each region.
@@ -25,6 +25,7 @@ triangles. Values at the boundary are given in the weighted midpoints of its edg
 With --smooth the pressure is smooth in each of three layers, for sizes h, h/2, h/4 and h/8, and the last column is the
 order. With --weights positions stay: the table has the bad triangles with weights 0, with one weight for each vertex,
 with a weight for each region but 0 at interfaces, and with a weight for each region: by SciPy, and by `find_weights`.
+--tetrahedra has a table of a cube with regions (bench/tensors_tets.py), and needs gmsh.
 """
 
 from __future__ import annotations
@@ -443,13 +444,19 @@ def weights_table(size, ratios):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--size", type=float, default=0.06)
+    parser.add_argument("--size", type=float, help="of edges; default 0.06, and 0.15 for tetrahedra")
     parser.add_argument("--ratios", default="2,10,100")
     parser.add_argument("--smooth", action="store_true")
     parser.add_argument("--weights", action="store_true")
+    parser.add_argument("--tetrahedra", action="store_true")
     arguments = parser.parse_args()
+    ratios = [float(r) for r in arguments.ratios.split(",")]
+    if arguments.tetrahedra:
+        import tensors_tets
+
+        return tensors_tets.table(arguments.size or 0.15, ratios)
     table = smooth_table if arguments.smooth else weights_table if arguments.weights else exact_table
-    table(arguments.size, [float(r) for r in arguments.ratios.split(",")])
+    return table(arguments.size or 0.06, ratios)
 
 
 if __name__ == "__main__":

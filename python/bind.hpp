@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "convert.hpp"
@@ -17,6 +18,7 @@
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
 #include "temper/tets/quality.hpp"
+#include "temper/tets/weights.hpp"
 
 namespace temper::python {
 
@@ -155,18 +157,32 @@ DiffusionProblem problem_from(const py::tuple& given);
 
 /// The metric of the three numbers of a diffusion tensor.
 Metric metric_from(const py::handle& tensor);
-/// Tensors as _tensor.py gives them: three numbers, or a pair of one tensor for each triangle, (m, 3), and the weights
-/// of corners, (m, 3) or empty.
+/// Tensors as _tensor.py gives them: one for all cells, as three or six numbers, or a pair of one for each cell, (m, 3)
+/// or (m, 6), and the weights of corners, (m, 3) or (m, 4) or empty.
+template <class K>
 struct GivenTensors {
-  std::optional<Tensor> one;
-  std::vector<Tensor> of_triangles;
+  std::optional<K> one;
+  std::vector<K> of_cells;
   std::vector<double> corner_weights;
 };
-GivenTensors tensors_from(const py::object& given);
+template <class K>
+GivenTensors<K> tensors_from(const py::object& given);
 /// The mesh in the planes of its metrics.
-MetricMesh in_metric(const Mesh& mesh, const GivenTensors& given);
-/// The weights of the corners of each triangle, (m, 3); None without interfaces.
-py::object corner_weights_to_python(const std::vector<double>& weights);
+MetricMesh in_metric(const Mesh& mesh, const GivenTensors<Tensor>& given);
+tets::MetricMesh in_metric(const tets::TetMesh& mesh, const GivenTensors<Tensor3>& given);
+/// The weights of the corners of each cell, (m, corners); None without interfaces.
+py::object corner_weights_to_python(const std::vector<double>& weights, py::ssize_t corners = 3);
+/// Finds weights of a mesh with tensors. Returns the report, whose weights are those of the vertices, and the weights
+/// of the corners.
+template <class Given, class AnyMesh, class Find>
+std::pair<WeightReport, std::vector<double>> weights_in_metric(const AnyMesh& mesh, const Given& given,
+                                                               const Find& find) {
+  auto pieces = in_metric(mesh, given);
+  WeightReport report = find(pieces);
+  for (const VertexId v : pieces.mesh.vertices()) pieces.mesh.set_weight(v, report.weights[v]);
+  report.weights.resize(mesh.n_vertices());
+  return {std::move(report), or_raise(mapped_back(pieces, mesh, pieces)).corner_weights};
+}
 
 /// Raises unless the mesh lies in the plane, which `what` requires.
 void require_plane(const Mesh& mesh, std::string_view what);

@@ -1,4 +1,5 @@
 // Bindings of the operators.
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -66,7 +67,7 @@ PyDec make_dec(const PyMesh& self, const py::object& tensor, const Doubles& coef
     const auto complex = std::make_shared<const DecComplex>(operators(*mesh));
     return {mesh, nullptr, complex, complex};
   }
-  const GivenTensors given = tensors_from(tensor);
+  const auto given = tensors_from<Tensor>(tensor);
   const py::gil_scoped_release release;
   auto pieces = std::make_shared<const MetricMesh>(in_metric(*mesh, given));
   const auto measured = std::make_shared<const DecComplex>(operators(pieces->mesh));
@@ -122,12 +123,18 @@ struct PyTetDec {
   std::shared_ptr<const tets::DecComplex> complex;
 };
 
-PyTetDec make_tet_dec(const PyTetMesh& mesh, const Doubles& coefficient) {
+PyTetDec make_tet_dec(const PyTetMesh& mesh, const py::object& tensor, const Doubles& coefficient) {
   const std::span<const double> k = as_span<double>(coefficient);
+  const auto operators = [k](const tets::TetMesh& measured) {
+    tets::DecComplex plain = tets::dec_operators(measured);
+    return k.empty() ? std::move(plain) : or_raise(tets::with_coefficient(measured, std::move(plain), k));
+  };
+  std::optional<GivenTensors<Tensor3>> given;
+  if (!tensor.is_none()) given = tensors_from<Tensor3>(tensor);
   const py::gil_scoped_release release;
-  tets::DecComplex made = tets::dec_operators(mesh.mesh());
-  if (!k.empty()) made = or_raise(tets::with_coefficient(mesh.mesh(), std::move(made), k));
-  return {mesh, std::make_shared<const tets::DecComplex>(std::move(made))};
+  if (!given) return {mesh, std::make_shared<const tets::DecComplex>(operators(mesh.mesh()))};
+  const tets::MetricMesh pieces = in_metric(mesh.mesh(), *given);
+  return {mesh, std::make_shared<const tets::DecComplex>(mapped_back(operators(pieces.mesh), pieces, mesh.mesh()))};
 }
 
 py::dict edges_to_dict(const py::object& owner, const tets::DecComplex& complex) {
@@ -165,7 +172,8 @@ py::dict tet_dec_to_dict(const PyTetDec& d) {
              "star1", whole(owner, c.star1.raw()))("star2", whole(owner, c.star2.raw()))(
              "star3", whole(owner, c.star3.raw()))("transmissibility", whole(owner, c.transmissibility.raw()))(
              "orthocenters", places(owner, {}, c.orthocenters.raw()))("volumes", whole(owner, c.volumes.raw()))(
-             "coefficient", whole(owner, c.coefficient.raw()))("capacity", whole(owner, c.capacity.raw()))
+             "coefficient", whole(owner, c.coefficient.raw()))("capacity", whole(owner, c.capacity.raw()))(
+             "half_transmissibility", whole(owner, c.half_transmissibility.raw()))
       .dict;
 }
 

@@ -2,6 +2,8 @@
 // around it has the signatures, defaults and documentation.
 #include <algorithm>
 #include <atomic>
+#include <tuple>
+#include <type_traits>
 
 #include "bind.hpp"
 #include "temper/detail/build_info.hpp"
@@ -29,29 +31,53 @@ Metric metric_from(const py::handle& tensor) {
   return or_raise(Metric::of({k[0].cast<double>(), k[1].cast<double>(), k[2].cast<double>()}));
 }
 
-GivenTensors tensors_from(const py::object& given) {
-  GivenTensors tensors;
-  if (given.cast<py::sequence>().size() == 3) {
-    tensors.one = metric_from(given).tensor();
+namespace {
+
+template <class K>
+K tensor_at(const double* k) {
+  if constexpr (std::is_same_v<K, Tensor>)
+    return {k[0], k[1], k[2]};
+  else
+    return {k[0], k[1], k[2], k[3], k[4], k[5]};
+}
+
+template <class Metrics, class K>
+Metrics metrics_of(const GivenTensors<K>& given) {
+  return given.one ? Metrics(or_raise(MetricOf<K>::of(*given.one))) : or_raise(Metrics::of(given.of_cells));
+}
+
+}  // namespace
+
+template <class K>
+GivenTensors<K> tensors_from(const py::object& given) {
+  constexpr std::size_t n = std::tuple_size_v<decltype(K().components())>;
+  GivenTensors<K> tensors;
+  const auto sequence = given.cast<py::sequence>();
+  if (sequence.size() == n) {
+    const auto k = given.cast<std::vector<double>>();
+    tensors.one = or_raise(MetricOf<K>::of(tensor_at<K>(k.data()))).tensor();
     return tensors;
   }
-  const auto [of_triangles, weights] = given.cast<std::pair<Doubles, Doubles>>();
-  const auto k = as_span<double>(of_triangles);
-  for (std::size_t t = 0; t + 2 < k.size(); t += 3) tensors.of_triangles.push_back({k[t], k[t + 1], k[t + 2]});
+  const auto [of_cells, weights] = given.cast<std::pair<Doubles, Doubles>>();
+  const auto k = as_span<double>(of_cells);
+  for (std::size_t t = 0; t + n <= k.size(); t += n) tensors.of_cells.push_back(tensor_at<K>(k.data() + t));
   const auto w = as_span<double>(weights);
   tensors.corner_weights.assign(w.begin(), w.end());
   return tensors;
 }
+template GivenTensors<Tensor> tensors_from(const py::object& given);
+template GivenTensors<Tensor3> tensors_from(const py::object& given);
 
-MetricMesh in_metric(const Mesh& mesh, const GivenTensors& given) {
-  const Metrics metrics =
-      given.one ? Metrics(or_raise(Metric::of(*given.one))) : or_raise(Metrics::of(given.of_triangles));
-  return or_raise(mapped(mesh, metrics, given.corner_weights));
+MetricMesh in_metric(const Mesh& mesh, const GivenTensors<Tensor>& given) {
+  return or_raise(mapped(mesh, metrics_of<Metrics>(given), given.corner_weights));
+}
+tets::MetricMesh in_metric(const tets::TetMesh& mesh, const GivenTensors<Tensor3>& given) {
+  return or_raise(mapped(mesh, metrics_of<tets::Metrics>(given), given.corner_weights));
 }
 
-py::object corner_weights_to_python(const std::vector<double>& weights) {
+py::object corner_weights_to_python(const std::vector<double>& weights, py::ssize_t corners) {
   if (weights.empty()) return py::none();
-  py::array_t<double> array({static_cast<py::ssize_t>(weights.size() / 3), py::ssize_t{3}});
+  py::array_t<double> array({static_cast<py::ssize_t>(weights.size()) / corners, corners});
   std::copy(weights.begin(), weights.end(), array.mutable_data());
   return array;
 }

@@ -150,9 +150,9 @@ py::object optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments
   }
   const auto count = threads_from(arguments.threads);
   if (!arguments.tensor.is_none()) {
-    GivenTensors tensors = tensors_from(arguments.tensor);
+    GivenTensors<Tensor> tensors = tensors_from<Tensor>(arguments.tensor);
     options.tensor = tensors.one;
-    options.triangle_tensors = std::move(tensors.of_triangles);
+    options.triangle_tensors = std::move(tensors.of_cells);
     options.corner_weights = std::move(tensors.corner_weights);
   }
   Mesh mesh = *self.read();

@@ -106,10 +106,12 @@ py::dict file_of_tets(const PyTetMesh& self) {
 
 // --- changes ------------------------------------------------------------------------------------------
 
-/// The mesh gets a new state, with its file.
-io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins& origins, Executor* executor) {
+/// The mesh gets a new state, with its file. `corner_weights`: of tetrahedra with several tensors.
+io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins& origins, Executor* executor,
+                       const std::vector<double>& corner_weights = {}) {
   io::MeshFile file = *self.file;
   io::DataReport data = aside([&] { return io::update(file, *self.loaded, mesh, origins, {{}, executor}); });
+  io::set_corner_weights(file, corner_weights);
   std::vector<std::int32_t> now(self.mesh().n_vertices(), -1);
   for (const VertexId v : mesh.vertices()) {
     const VertexId former = origins.vertices.empty() ? v : origins.vertices[v];
@@ -123,6 +125,21 @@ io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins&
   self.loaded = std::make_shared<const io::LoadedTetMesh>(io::LoadedTetMesh{std::move(mesh), std::move(all), {}});
   ++self.version;
   return data;
+}
+
+/// The weights of corners go into the cell data.
+void set_tet_corner_weights(PyTetMesh& self, const Doubles& weights) {
+  const Run run(self.running);
+  const auto values = as_span<double>(weights);
+  if (values.size() != self.mesh().n_halffaces()) {
+    fail(ErrorCode::size_mismatch, "weights: expected four for each of " + std::to_string(self.mesh().n_tetrahedra()) +
+                                       " tetrahedra, found " + std::to_string(values.size()) + " numbers");
+  }
+  for (const double w : values) {
+    if (!is_exact_weight(w))
+      fail(ErrorCode::out_of_scale, "weights: expected numbers in the range of exact arithmetic");
+  }
+  replace(self, self.mesh(), {}, nullptr, {values.begin(), values.end()});
 }
 
 void set_tet_weights(PyTetMesh& self, const Doubles& weights) {
@@ -149,8 +166,14 @@ void set_tet_weights(PyTetMesh& self, const Doubles& weights) {
 
 /// The mesh gets its new state, whatever ended the run. Exceptions of the observer are raised after that. Returns the
 /// report, the report on the data or None, and what is lost.
-py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const py::object& threads, const py::object& observer) {
-  const OptimizeOptions options = options_from(given);
+py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const py::object& threads, const py::object& observer,
+                        const py::object& tensor) {
+  OptimizeOptions options = options_from(given);
+  if (!tensor.is_none()) {
+    GivenTensors<Tensor3> tensors = tensors_from<Tensor3>(tensor);
+    options.tetrahedra_tensors = tensors.one ? std::vector{*tensors.one} : std::move(tensors.of_cells);
+    options.corner_weights = std::move(tensors.corner_weights);
+  }
   const auto executor = make_threads(threads_from(threads));
   const auto loaded = self.loaded;
   tets::TetMesh mesh = loaded->mesh;
@@ -164,7 +187,8 @@ py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const py::object
   py::object data = py::none();
   std::vector<std::string> lost;
   if (report) {
-    const io::DataReport changed = replace(self, std::move(mesh), report->origins, executor.get());
+    const io::DataReport changed =
+        replace(self, std::move(mesh), report->origins, executor.get(), report->corner_weights);
     if (has_data) data = to_python(ReportView{&table_for_tetrahedra(&changed), view_of(changed).report});
     lost.assign(self.file->warnings.begin() + static_cast<std::ptrdiff_t>(known), self.file->warnings.end());
   }
@@ -238,6 +262,7 @@ void bind_tets(py::module_& m) {
   type.def("weights", tet_weights);
   type.def("tetrahedra", tetrahedra_of);
   type.def("set_weights", set_tet_weights);
+  type.def("set_corner_weights", set_tet_corner_weights);
   type.def("neighbors", neighbors_of);
   type.def("regions", tet_regions);
   type.def("file", file_of_tets);

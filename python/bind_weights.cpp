@@ -207,6 +207,14 @@ py::list conditions_rows(std::span<const ConstraintsInfo> table) {
   return rows;
 }
 
+/// The weights that `find` finds for a mesh, or for its pieces in the metrics of tensors, which may be None.
+template <class K, class AnyMesh, class Find>
+py::dict weights_to_dict(const AnyMesh& mesh, const py::object& tensor, py::ssize_t corners, const Find& find) {
+  if (tensor.is_none()) return Record{weight_report_to_dict(find(mesh))}("corner_weights", py::object(py::none())).dict;
+  const auto [report, weights] = weights_in_metric(mesh, tensors_from<K>(tensor), find);
+  return Record{weight_report_to_dict(report)}("corner_weights", corner_weights_to_python(weights, corners)).dict;
+}
+
 void bind_feasibility(py::module_& m) {
   m.def("constraints_table", [] { return conditions_rows(constraints_table()); });
   m.def("best_connectivity", search_connectivity);
@@ -221,15 +229,7 @@ void bind_feasibility(py::module_& m) {
       return or_raise(
           aside([&] { return find_weights(wanted, *clp_solver(), options, interior_point_solver().get()); }));
     };
-    py::object corner_weights = py::none();
-    if (tensor.is_none()) return Record{weight_report_to_dict(found(*mesh))}("corner_weights", corner_weights).dict;
-    MetricMesh pieces = in_metric(*mesh, tensors_from(tensor));
-    WeightReport report = found(pieces);
-    for (const VertexId v : pieces.mesh.vertices()) pieces.mesh.set_weight(v, report.weights[v]);
-    const WholeMesh whole_mesh = or_raise(mapped_back(pieces, *mesh, pieces));
-    report.weights.resize(mesh->n_vertices());
-    corner_weights = corner_weights_to_python(whole_mesh.corner_weights);
-    return Record{weight_report_to_dict(report)}("corner_weights", corner_weights).dict;
+    return weights_to_dict<Tensor>(*mesh, tensor, 3, found);
   });
   m.def("best_margin",
         [](const PyMesh& self, const py::object& triangles, const std::string& constraints, const py::object& edges) {
@@ -291,12 +291,15 @@ void bind_weights_of_tetrahedra(py::module_& m) {
   m.def("tet_constraints_table", [] { return conditions_rows(tets::constraints_table()); });
   m.def("tet_find_weights", [](const PyTetMesh& self, const std::string& goal, double margin, bool from_input,
                                std::size_t whole, int rings, const std::string& constraints, double offset_factor,
-                               double boundary_offset_factor) {
+                               double boundary_offset_factor, const py::object& tensor) {
     const auto loaded = self.loaded;
     const WeightOptions options =
         weight_options(goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor);
-    return weight_report_to_dict(or_raise(aside(
-        [&] { return tets::find_weights(loaded->mesh, *clp_solver(), options, interior_point_solver().get()); })));
+    const auto found = [&](const auto& wanted) {
+      return or_raise(
+          aside([&] { return tets::find_weights(wanted, *clp_solver(), options, interior_point_solver().get()); }));
+    };
+    return weights_to_dict<Tensor3>(loaded->mesh, tensor, 4, found);
   });
   m.def("tet_weight_margin", [](const PyTetMesh& self, const std::string& constraints) {
     return tets::weight_margin(self.mesh(), from_name<Constraints>("constraints", constraints));

@@ -11,12 +11,14 @@
 #include <type_traits>
 
 #include "temper/detail/cell_kinds.hpp"
+#include "temper/detail/tensor.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
+#include "temper/tets/tensor.hpp"
 #include "temper/tets/weights.hpp"
 
 namespace temper {
@@ -32,6 +34,10 @@ struct Triangles {
   using Mesh = temper::Mesh;
   using Loaded = io::LoadedMesh;
   using Element = TriangleId;
+  using Tensor = temper::Tensor;
+  using Metrics = temper::Metrics;
+  using Pieces = temper::MetricMesh;
+  using WholeMesh = temper::WholeMesh;
   using Quality = temper::Quality;
   using OptimizeReport = temper::OptimizeReport;
   using ErrorReport = temper::ErrorReport;
@@ -40,6 +46,7 @@ struct Triangles {
   static constexpr std::string_view element = "triangle", elements = "triangles";
   static constexpr std::string_view link = "edge", links = "edges";  ///< between two elements
   static constexpr std::string_view angle = "angle";
+  static constexpr std::string_view tensor = "KXX,KXY,KYY";
   static constexpr auto cells_of_file = &io::MeshFile::triangles;
   static constexpr auto measures = &temper::quality_measures;
   static constexpr auto constraints = &temper::constraints_table;
@@ -52,6 +59,10 @@ struct Tetrahedra {
   using Mesh = tets::TetMesh;
   using Loaded = io::LoadedTetMesh;
   using Element = tets::TetId;
+  using Tensor = temper::Tensor3;
+  using Metrics = tets::Metrics;
+  using Pieces = tets::MetricMesh;
+  using WholeMesh = tets::WholeMesh;
   using Quality = tets::Quality;
   using OptimizeReport = tets::OptimizeReport;
   using ErrorReport = tets::ErrorReport;
@@ -60,6 +71,7 @@ struct Tetrahedra {
   static constexpr std::string_view element = "tetrahedron", elements = "tetrahedra";
   static constexpr std::string_view link = "face", links = "faces";
   static constexpr std::string_view angle = "dihedral";
+  static constexpr std::string_view tensor = "KXX,KXY,KXZ,KYY,KYZ,KZZ";
   static constexpr auto cells_of_file = &io::MeshFile::tetrahedra;
   static constexpr auto measures = &tets::quality_measures;
   static constexpr auto constraints = &tets::constraints_table;

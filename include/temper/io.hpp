@@ -429,6 +429,8 @@ DataReport update(MeshFile& file, const LoadedTetMesh& loaded, const tets::TetMe
 /// The weight of each corner of each triangle of the mesh, three each, from cell data `corner_weights` of the file;
 /// empty if it has none. Meshes with tensors of several planes have them (temper/detail/tensor.hpp).
 [[nodiscard]] std::vector<double> corner_weights_of(const MeshFile& file, const LoadedMesh& loaded);
+/// The same of tetrahedra, four each.
+[[nodiscard]] std::vector<double> corner_weights_of(const MeshFile& file, const LoadedTetMesh& loaded);
 /// Sets these cell data of a file after update(). Empty: the file has none any more.
 void set_corner_weights(MeshFile& file, const std::vector<double>& weights);
 
@@ -439,7 +441,7 @@ void set_corner_weights(MeshFile& file, const std::vector<double>& weights);
 ///
 /// The memory goes back to the system.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
-/// Frees points, weights and tetrahedra after make_tet_mesh(), unless points were dropped.
+/// Frees points, weights and tetrahedra after make_tet_mesh(), unless points were dropped or corners have weights.
 void release_geometry(MeshFile& file, const LoadedTetMesh& loaded);
 
 /// An outline, as a file gives it.

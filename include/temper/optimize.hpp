@@ -396,8 +396,10 @@ struct OptimizeOptions {
   /// Tensor of each triangle of the input, instead of `tensor`. Vertices between triangles with different tensors stay.
   /// They get a weight for each region (temper/detail/tensor.hpp). Empty: one tensor for all.
   std::vector<Tensor> triangle_tensors = {};
-  /// Weight of each corner of each triangle of the input, as in OptimizeReport; only with `triangle_tensors`. Empty:
-  /// the weights of the vertices.
+  /// Tensor of each tetrahedron of the input, or one for all. Empty: K = 1 (temper/tets/tensor.hpp).
+  std::vector<Tensor3> tetrahedra_tensors = {};
+  /// Weight of each corner of each cell of the input, as in OptimizeReport; only with tensors of the cells. Empty: the
+  /// weights of the vertices.
   std::vector<double> corner_weights = {};
   /// The user's own problem. The run lowers its error, or says why it cannot: see wants_error_model(). Absent: the
   /// mean error of many smooth solutions with K = 1.

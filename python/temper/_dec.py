@@ -15,7 +15,7 @@ from ._mesh import Mesh, MeshLike, as_mesh
 from ._records import Record
 from ._reports import DecSummary, TetDecSummary
 from ._tensor import TensorLike, plain_tensor, values_of_regions
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh
 
 CoefficientLike = Union[npt.ArrayLike, Mapping[int, float], Mapping[str, float], Mapping[Union[str, int], float]]
 """A value for each triangle or tetrahedron, or for each region by its tag or name."""
@@ -282,10 +282,14 @@ class TetDecComplex(_Complex):
     """Coefficient K of each tetrahedron, (m,); empty without one."""
     capacity: npt.NDArray[np.float64]
     """★0 with K, (n,) [K length³], for terms such as K ∂u/∂t; empty without a coefficient."""
+    half_transmissibility: npt.NDArray[np.float64]
+    """With a tensor, else empty: K A/h of each halfface, (4 m,), the transmissibility between the orthocenter of a
+    tetrahedron and its face opposite each corner. That of a face inside is 1/(1/a + 1/b) for its two halffaces."""
     _handle: Any = dataclasses.field(repr=False, compare=False)
+    _tensor: Any = dataclasses.field(repr=False, compare=False)
 
     def __reduce__(self) -> Any:
-        return _tet_dec_of, (TetMesh._of(self._handle.mesh(), [], 2), self.coefficient.copy())
+        return _tet_dec_of, (TetMesh._of(self._handle.mesh(), [], 2), self._tensor, self.coefficient.copy())
 
     def summarize(self) -> TetDecSummary:
         """Summarizes counts, signs and extremes."""
@@ -310,7 +314,7 @@ def _coefficient_of(mesh: Mesh | TetMesh, coefficient: CoefficientLike | None) -
 
 @overload
 def dec_operators(
-    mesh: TetMesh, *, tensor: None = ..., coefficient: CoefficientLike | None = ...
+    mesh: TetMesh, *, tensor: TensorLike | None = ..., coefficient: CoefficientLike | None = ...
 ) -> TetDecComplex: ...
 @overload
 def dec_operators(
@@ -333,7 +337,8 @@ def dec_operators(
     tensor : sequence of float, (m, 3) array, or dict of region to sequence, optional
         kxx, kxy, kyy of a diffusion tensor K, for −div(K ∇u): of the mesh, of each triangle, or of each region by its
         tag or name. Duals and lengths are measured in its metric. ★1 and transmissibility are multiplied by √(det K)
-        (docs/howto/anisotropic.md). Several tensors take ``mesh.cell_data["corner_weights"]``. For triangles alone.
+        (docs/howto/anisotropic.md). Several tensors take ``mesh.cell_data["corner_weights"]``. For tetrahedra kxx, kxy,
+        kxz, kyy, kyz, kzz, (m, 6), and the factor ∛(det K).
     coefficient : array of float, or dict of region to float, optional
         K > 0 of −div(K ∇u) on each triangle or tetrahedron, (m,), or by region: its tag or its name. With it ★1 = (K_k
         h_k + K_l h_l)/ℓ, for unknowns at vertices. The transmissibility is ℓ/(h_k/K_k + h_l/K_l), the harmonic mean,
@@ -362,8 +367,7 @@ def dec_operators(
     """
     any_mesh = as_any_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
-        expect_no_options_of_triangles(dec_operators, tensor=tensor)
-        return _tet_dec_of(any_mesh, _coefficient_of(any_mesh, coefficient))
+        return _tet_dec_of(any_mesh, plain_tensor(any_mesh, tensor), _coefficient_of(any_mesh, coefficient))
     return _dec_of(any_mesh, plain_tensor(any_mesh, tensor), _coefficient_of(any_mesh, coefficient), _named_lines(any_mesh))
 
 
@@ -394,8 +398,10 @@ def _dec_of(
     return DecComplex(edges=edges, d0=d0, d1=d1, _handle=handle, _tensor=tensor, **arrays)
 
 
-def _tet_dec_of(mesh: TetMesh, coefficient: npt.NDArray[np.float64]) -> TetDecComplex:
-    handle = _temper.tet_dec_operators(mesh._handle, coefficient)
+def _tet_dec_of(
+    mesh: TetMesh, tensor: tuple[Any, ...] | None, coefficient: npt.NDArray[np.float64]
+) -> TetDecComplex:
+    handle = _temper.tet_dec_operators(mesh._handle, tensor, coefficient)
     arrays = handle.arrays()
     file = mesh._file()
 
@@ -418,7 +424,7 @@ def _tet_dec_of(mesh: TetMesh, coefficient: npt.NDArray[np.float64]) -> TetDecCo
     arrays["faces"] = TetDecFaces(**faces, named=named(2, faces["vertices"], "faces", "face_tags"))
     for name in ("d0", "d1", "d2"):
         arrays[name] = IncidenceMatrix(**arrays[name])
-    return TetDecComplex(**arrays, _handle=handle)
+    return TetDecComplex(**arrays, _handle=handle, _tensor=tensor)
 
 
 # --- barriers and columns of cells under layers ---------------------------------------------------------------------------

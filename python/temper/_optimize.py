@@ -107,7 +107,7 @@ def optimize(
 ) -> OptimizeReport:
     """Improves a mesh in place: moves vertices, changes weights and flips edges until every triangle is well-centered.
 
-    In a mesh of tetrahedra, orthocenters come inside their tetrahedra. ``size_field``, ``tensor``, ``hooks`` and many
+    In a mesh of tetrahedra, orthocenters come inside their tetrahedra. ``size_field``, ``hooks`` and many
     options are for triangles alone, and options that begin with ``tets_`` for tetrahedra: an error names them. Where
     tetrahedra stay bad, vertices are inserted and removed.
 
@@ -142,7 +142,8 @@ def optimize(
     tensor : sequence of float, (m, 3) array, or dict of region to sequence, optional
         kxx, kxy, kyy of a diffusion tensor K, for −div(K ∇u): of the mesh, of each triangle, or of each region by its
         tag or name. Triangles become well-centered in the metric of their tensor. The report and the snapshots are in
-        this metric too. Where tensors differ, vertices stay, and they get a weight for each region, which
+        this metric too. For tetrahedra kxx, kxy, kxz, kyy, kyz, kzz, and (m, 6). Where tensors differ, vertices stay,
+        and they get a weight for each region, which
         ``mesh.cell_data["corner_weights"]`` holds. Not with ``size_field`` and a tracer.
     time_limit : float, optional
         Time limit in seconds. The run then ends with the best mesh so far. None: no limit.
@@ -220,9 +221,11 @@ def optimize(
     watch = _observer(line, observer)
     _temper.check_cells(plain, target, _words(keep), rows_set(options, changes), isinstance(changed, TetMesh))
     if isinstance(changed, TetMesh):
-        expect_no_options_of_triangles(optimize, size_field=size_field, tensor=tensor, problem=own, **vars(hooks))
+        expect_no_options_of_triangles(optimize, size_field=size_field, problem=own, **vars(hooks))
         with _put_back_at_end(mesh, changed, line):
-            report, data, lost = _temper.tet_optimize(changed._handle, plain, threads, watch)
+            report, data, lost = _temper.tet_optimize(
+                changed._handle, plain, threads, watch, plain_tensor(changed, tensor)
+            )
         for sentence in lost:
             warnings.warn(sentence, TemperWarning, stacklevel=2)
         return dataclasses.replace(report, data=data)

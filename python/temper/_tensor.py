@@ -12,10 +12,12 @@ from ._mesh import Mesh, MeshLike, as_mesh
 from ._tets import TetMesh
 
 TensorLike = Union[Sequence[float], npt.ArrayLike, Mapping[int, Sequence[float]], Mapping[str, Sequence[float]]]
-"""kxx, kxy, kyy of one tensor; one for each triangle, (m, 3); or one for each region by its tag or name."""
+"""kxx, kxy, kyy of one tensor; one for each triangle, (m, 3); or one for each region by its tag or name. For tetrahedra
+kxx, kxy, kxz, kyy, kyz, kzz, and (m, 6)."""
 
 CORNER_WEIGHTS = "corner_weights"
-"""Cell data with a weight for each vertex and region: of each corner of each triangle, (m, 3) [length²]."""
+"""Cell data with a weight for each vertex and region: of each corner of each triangle, (m, 3), or tetrahedron, (m, 4)
+[length²]."""
 
 
 def values_of_regions(mesh: Mesh | TetMesh, values: Mapping[Any, Any], what: str) -> npt.NDArray[np.float64]:
@@ -41,24 +43,29 @@ def values_of_regions(mesh: Mesh | TetMesh, values: Mapping[Any, Any], what: str
     return np.array([values_of[int(r)] for r in regions], dtype=np.float64)[which]
 
 
-def plain_tensor(mesh: Mesh, tensor: TensorLike | None) -> tuple[Any, ...] | None:
-    """Tensors for the compiled module: three numbers, or an array (m, 3) and the weights of corners."""
+def plain_tensor(mesh: Mesh | TetMesh, tensor: TensorLike | None) -> tuple[Any, ...] | None:
+    """Tensors for the compiled module: three or six numbers, or an array (m, 3) or (m, 6) and the weights of corners."""
     if tensor is None:
         return None
+    is_tets = isinstance(mesh, TetMesh)
+    names, n = ("kxx, kxy, kxz, kyy, kyz, kzz", 6) if is_tets else ("kxx, kxy, kyy", 3)
+    m = mesh.n_tetrahedra if isinstance(mesh, TetMesh) else mesh.n_triangles
     if isinstance(tensor, Mapping):
         values = values_of_regions(mesh, tensor, "tensor")
     else:
         values = np.asarray(tensor, dtype=np.float64)
-        if values.ndim == 1 and len(values) == 3:
+        if values.ndim == 1 and len(values) == n:
             return tuple(values.tolist())
         if values.ndim == 1:
-            raise ValueError(f"tensor: expected kxx, kxy, kyy, found {len(values)} numbers")
-    if values.shape != (mesh.n_triangles, 3):
+            raise ValueError(f"tensor: expected {names}, found {len(values)} numbers")
+    if values.shape != (m, n):
+        cell = "tetrahedron" if is_tets else "triangle"
         raise ValueError(
-            f"tensor: expected kxx, kxy, kyy, or one for each triangle, shape ({mesh.n_triangles}, 3), or a dictionary "
-            f"of regions; found shape {values.shape}"
+            f"tensor: expected {names}, or one for each {cell}, shape ({m}, {n}), or a dictionary of regions; "
+            f"found shape {values.shape}"
         )
-    weights = mesh.cell_data.get(CORNER_WEIGHTS) if mesh._handle.has_data() else None
+    has_data = isinstance(mesh, TetMesh) or mesh._handle.has_data()
+    weights = mesh.cell_data.get(CORNER_WEIGHTS) if has_data else None
     return np.ascontiguousarray(values), np.empty(0) if weights is None else np.ascontiguousarray(weights)
 
 

@@ -156,12 +156,19 @@ class TetMesh(Tagged):
 
     @property
     def weights(self) -> npt.NDArray[np.float64]:
-        """Weights, (n,) float64 [length²]. A read-only view. Assigning sets all at once, and the tetrahedra stay. O(n)."""
+        """Weights, (n,) float64 [length²]. A read-only view. Assigning sets all at once, and the tetrahedra stay. O(n).
+
+        Assigning (m, 4) sets a weight for each corner of each tetrahedron, as ``find_weights`` finds them for several
+        tensors: ``cell_data["corner_weights"]``.
+        """
         return self._handle.weights()
 
     @weights.setter
     def weights(self, weights: npt.ArrayLike) -> None:
-        self._handle.set_weights(_doubles(weights, 0, "weights"))
+        if np.ndim(weights) == 2:
+            self._handle.set_corner_weights(_doubles(weights, 4, "weights"))
+        else:
+            self._handle.set_weights(_doubles(weights, 0, "weights"))
 
     @property
     def tetrahedra(self) -> npt.NDArray[np.int32]:

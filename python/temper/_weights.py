@@ -151,7 +151,8 @@ class WeightReport(Record):
     """Proof that the weights are best; only for center and accuracy, if solved."""
     corner_weights: npt.NDArray[np.float64] | None = None
     """With tensors that differ: weight of each corner of each triangle, (m, 3) [length²], for
-    ``mesh.cell_data["corner_weights"]``. ``weights`` then has one of the weights of each vertex."""
+    ``mesh.cell_data["corner_weights"]``. Of each tetrahedron, (m, 4), for ``mesh.weights``. ``weights`` then has one of
+    the weights of each vertex."""
 
     @classmethod
     def _of(cls, d: dict[str, Any]) -> WeightReport:
@@ -209,8 +210,7 @@ def find_weights(
         10 and 0.5 for unknowns at vertices, 10 and 30 for two-point fluxes, 20 and 18 for diagonal stars.
     tensor : sequence of float, (m, 3) array, or dict of region to sequence, optional
         Diffusion tensors, as in ``optimize``: constraints hold in their metrics. If they differ, weights keep the
-        equations of interfaces, and ``corner_weights`` has them; goals center, accuracy and least are refused. For
-        triangles alone.
+        equations of interfaces, and ``corner_weights`` has them; goals center, accuracy and least are refused.
 
     Notes
     -----
@@ -232,8 +232,8 @@ def find_weights(
     any_mesh = as_any_mesh(mesh)
     wanted = goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor
     if isinstance(any_mesh, TetMesh):
-        expect_no_options_of_triangles(find_weights, edges=edges, tensor=tensor)
-        d = _temper.tet_find_weights(any_mesh._handle, *wanted)
+        expect_no_options_of_triangles(find_weights, edges=edges)
+        d = _temper.tet_find_weights(any_mesh._handle, *wanted, plain_tensor(any_mesh, tensor))
     else:
         d = _temper.find_weights(any_mesh._handle, *wanted, _edges(edges), plain_tensor(any_mesh, tensor))
     return WeightReport._of(d)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "feasibility/potential.hpp"
+#include "temper/detail/criterion.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/ids.hpp"
 #include "temper/detail/space.hpp"
@@ -65,6 +66,12 @@ LinearForm height_form(const WeightConstraint& c, const Vector& pq, const Vector
                        double twice_area) {
   const double l2 = squared_length(pq), scale = 0.5 / twice_area;
   return {3, {c.p, c.q, c.r}, {-scale * dot(pq, qr) / l2, scale * dot(pq, pr) / l2, -scale}, scale * dot(pr, qr)};
+}
+
+/// Returns the constraints on weights that a criterion is.
+[[nodiscard]] inline Constraints constraints_of(Criterion criterion) {
+  if (criterion == Criterion::well_centered) return Constraints::well_centered;
+  return criterion == Criterion::coefficients ? Constraints::coefficients : Constraints::distances;
 }
 
 /// Says whether a constraint is an equation, whose multiplier may have either sign.

@@ -55,11 +55,16 @@ class Equations {
   VertexWeights units_;
 };
 
-/// Solves A Units² Aᵀ y = b by conjugate gradients. It is singular where equations follow from others, but they agree.
+double norm(const Values& a) { return std::sqrt(dot(a, a)); }
+
+/// Solves A Units² Aᵀ y = b by conjugate gradients. It is singular where equations follow from others, as those of the
+/// three edges of a face do. These agree except for rounding, from which the steps would go away without end. So the
+/// least residual counts.
 Values solve(const Equations& equations, const Values& b, double tolerance) {
-  Values y(b.size(), 0.0), r = b, p = b;
-  double rr = dot(r, r);
-  for (std::size_t step = 0; step < 4 * b.size() && std::sqrt(rr) > tolerance; ++step) {
+  constexpr double kFarAway = 1e4;  // squared residual over the least one, at which the steps end
+  Values y(b.size(), 0.0), r = b, p = b, best = y;
+  double rr = dot(r, r), least = rr;
+  for (std::size_t step = 0; step < 4 * b.size() && std::sqrt(rr) > tolerance && rr <= kFarAway * least; ++step) {
     const Values q = equations.violations(equations.spread(p));
     const double curvature = dot(p, q);
     if (!(curvature > 0)) break;
@@ -68,8 +73,9 @@ Values solve(const Equations& equations, const Values& b, double tolerance) {
     const double next = dot(r, r), b_factor = next / rr;
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = r[i] + b_factor * p[i];
     rr = next;
+    if (rr < least) least = rr, best = y;
   }
-  return y;
+  return best;
 }
 
 }  // namespace
@@ -102,10 +108,12 @@ void Seams::settle(VertexWeights& weights, const std::function<LinearForm(const 
   for (int round = 0; round < kRounds; ++round) {
     Values violations = equations.violations(weights);
     for (double& v : violations) v = -v;
-    const double size = std::sqrt(dot(violations, violations));
+    const double size = norm(violations);
     if (size <= kRounding * std::sqrt(static_cast<double>(violations.size()))) return;
-    const VertexWeights change = equations.spread(solve(equations, violations, 1e-8 * size));
-    for (std::size_t v = 0; v < weights.size(); ++v) weights[VertexId(v)] += change[VertexId(v)];
+    VertexWeights settled = equations.spread(solve(equations, violations, 1e-8 * size));
+    for (std::size_t v = 0; v < weights.size(); ++v) settled[VertexId(v)] += weights[VertexId(v)];
+    if (norm(equations.violations(settled)) >= size) return;
+    weights = std::move(settled);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mesh/mesh_editor.hpp"
+#include "mesh/pieces.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/tensor.hpp"
 
@@ -26,17 +27,8 @@ Expected<void> expect_upright(const Mesh& mesh, const InputNames& names) {
   return {};
 }
 
-/// Numbers each pair of a region and a metric, and gives each triangle that number as its region. An edge between two
-/// tensors of one plane becomes constrained.
-void number_regions(MetricMesh& pieces) {
-  std::map<std::pair<std::int32_t, std::uint32_t>, std::int32_t> numbers;
-  Mesh& mesh = pieces.mesh;
-  for (const TriangleId t : mesh.triangles()) {
-    const std::pair kind(mesh.region(t), pieces.metrics.number(t));
-    const auto [at, is_new] = numbers.try_emplace(kind, static_cast<std::int32_t>(pieces.regions.size()));
-    if (is_new) pieces.regions.push_back({kind.first, kind.second});
-    mesh.set_region(t, at->second);
-  }
+/// Makes edges between two tensors of one plane constrained.
+void constrain_regions(Mesh& mesh) {
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_boundary(h) || mesh.is_constrained(h)) continue;
     if (mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) mesh.set_constrained(h, true);
@@ -116,19 +108,6 @@ IdVector<VertexId, TriangleId> triangles_at(const Mesh& mesh) {
   return triangles;
 }
 
-Expected<void> expect_sizes(const Mesh& mesh, const Metrics& metrics, std::span<const double> corner_weights) {
-  const auto refused = [&mesh](const char* what, std::size_t expected, std::size_t found) {
-    return InputError{ErrorCode::invalid_option, "",
-                      std::string(what) + ": expected " + std::to_string(expected) + " for " +
-                          std::to_string(mesh.n_triangles()) + " triangles, found " + std::to_string(found)};
-  };
-  if (!metrics.is_constant() && metrics.n_triangles() != mesh.n_triangles())
-    return refused("tensors", mesh.n_triangles(), metrics.n_triangles());
-  if (!corner_weights.empty() && corner_weights.size() != mesh.n_halfedges())
-    return refused("corner weights", mesh.n_halfedges(), corner_weights.size());
-  return {};
-}
-
 }  // namespace
 
 std::vector<SeamEdge> seams_of(const MetricMesh& pieces) {
@@ -153,11 +132,13 @@ std::vector<SeamEdge> seams_of(const MetricMesh& pieces) {
 Expected<MetricMesh> mapped(const Mesh& mesh, const Metrics& metrics, std::span<const double> corner_weights,
                             const InputNames& names) {
   if (auto error = expect_plane(mesh, "a diffusion tensor")) return *std::move(error);
-  if (const auto sizes = expect_sizes(mesh, metrics, corner_weights); !sizes) return sizes.error();
+  const auto sizes = expect_sizes(metrics, corner_weights, mesh.n_triangles(), mesh.n_halfedges(), "triangles");
+  if (!sizes) return sizes.error();
   MetricMesh pieces = {mesh, metrics, {}, {}};
   if (!metrics.is_constant()) {
     Cutter(pieces).cut();
-    number_regions(pieces);
+    number_regions(pieces, pieces.mesh.triangles());
+    constrain_regions(pieces.mesh);
   }
   const IdVector<VertexId, TriangleId> triangles = triangles_at(pieces.mesh);
   for (const VertexId v : pieces.mesh.vertices()) {
@@ -173,21 +154,7 @@ Expected<MetricMesh> mapped(const Mesh& mesh, const Metrics& metrics, std::span<
 }
 
 MetricMesh with_mesh(const MetricMesh& pieces, Mesh changed, const IdVector<VertexId, VertexId>& vertices) {
-  MetricMesh now = {std::move(changed), pieces.metrics, {}, pieces.regions};
-  if (!pieces.is_cut()) return now;
-  IdVector<VertexId, VertexId> first(pieces.mesh.n_vertices());  // of the copies that are left
-  now.first_copies.reserve(now.mesh.n_vertices());
-  for (const VertexId v : now.mesh.vertices()) {
-    const VertexId old = vertices.empty() ? v : vertices[v];
-    if (!old.valid()) {
-      now.first_copies.push_back(v);
-      continue;
-    }
-    VertexId& known = first[pieces.first_copy(old)];
-    if (!known.valid()) known = v;
-    now.first_copies.push_back(known);
-  }
-  return now;
+  return with_other_mesh(pieces, std::move(changed), vertices);
 }
 
 namespace {
@@ -235,14 +202,7 @@ Expected<WholeMesh> mapped_back(const MetricMesh& changed, const Mesh& original,
     if (!now.regions.empty()) whole.tensors.push_back(now.metric(t).tensor());
   }
   move_back(now, original, pieces, vertices);
-  if (now.is_cut()) {
-    const IdVector<VertexId, VertexId> kept = join(now);
-    whole.vertices.clear();
-    for (std::size_t i = 0; i < kept.size() && !vertices.empty(); ++i) {
-      const VertexId old = vertices[kept[VertexId(i)]];
-      whole.vertices.push_back(old.valid() ? pieces.first_copy(old) : old);
-    }
-  }
+  if (now.is_cut()) whole.vertices = numbers_before_cut(join(now), pieces, vertices);
   whole.mesh = std::move(now.mesh);
   if (const auto upright = expect_upright(whole.mesh, InputNames()); !upright) return upright.error();
   return whole;

@@ -274,5 +274,78 @@ def test_wrong_tensors_of_regions_are_told():
         temper.dec_operators(mesh, tensor=np.zeros((mesh.n_triangles, 3)))
 
 
+# --- tetrahedra -------------------------------------------------------------------------------------------------------
+
+
+def cubes_in_layers(n=3):
+    """Cubes of six tetrahedra around a diagonal, inner vertices moved; regions 1 and 2 below and above z = 1."""
+    grid = np.stack(np.meshgrid(*[np.arange(n + 1)] * 3, indexing="ij"), axis=-1).reshape(-1, 3).astype(float)
+    number = lambda p: (p[..., 0] * (n + 1) + p[..., 1]) * (n + 1) + p[..., 2]
+    base = np.stack(np.meshgrid(*[np.arange(n)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    tets = []
+    for order in [(0, 1, 2), (0, 2, 1), (1, 0, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)]:
+        corners = [base]
+        for axis in order:
+            corners.append(corners[-1] + np.eye(3, dtype=int)[axis])
+        tets.append(number(np.stack(corners, axis=1)))
+    tets = np.concatenate(tets)
+    regions = 1 + (grid[tets].mean(axis=1)[:, 2] > 1)
+    free = ((grid > 0) & (grid < n)).all(axis=1) & (grid[:, 2] != 1)
+    grid[free] += 0.1 * np.random.default_rng(2).uniform(-1, 1, (free.sum(), 3))
+    return temper.TetMesh(grid, tets, regions=regions)
+
+
+LAYERS = {1: (1, 0, 0, 1, 0, 0.2), 2: (3, 0, 0, 3, 0, 9)}
+
+
+def test_scalar_tensors_of_tetrahedra_are_a_coefficient():
+    mesh = cubes_in_layers()
+    scalar = {1: (2, 0, 0, 2, 0, 2), 2: (7, 0, 0, 7, 0, 7)}
+    found, expected = temper.dec_operators(mesh, tensor=scalar), temper.dec_operators(mesh, coefficient={1: 2, 2: 7})
+    assert np.allclose(found.star1, expected.star1, rtol=1e-12)
+    assert np.allclose(found.transmissibility, expected.transmissibility, rtol=1e-12)
+    of_cells = np.array([scalar[int(r)] for r in mesh.regions])
+    assert np.array_equal(temper.dec_operators(mesh, tensor=of_cells).star1, found.star1)
+    assert found.half_transmissibility.shape == (4 * mesh.n_tetrahedra,)
+    assert len(expected.half_transmissibility) == 0
+
+
+def test_operators_of_tetrahedra_with_tensors_can_be_pickled():
+    import pickle
+
+    found = temper.dec_operators(cubes_in_layers(), tensor=LAYERS)
+    again = pickle.loads(pickle.dumps(found))
+    assert np.array_equal(again.transmissibility, found.transmissibility)
+
+
+def test_tetrahedra_with_tensors_of_layers_get_corner_weights():
+    mesh = cubes_in_layers()
+    before = temper.dec_operators(mesh, tensor=LAYERS).summarize().not_well_centered
+    report = temper.optimize(mesh, tensor=LAYERS, effort="quick")
+    after = temper.dec_operators(mesh, tensor=LAYERS).summarize().not_well_centered
+    assert after < before
+    assert report.history[0].bad == before
+    weights = mesh.cell_data["corner_weights"]
+    assert weights.shape == (mesh.n_tetrahedra, 4)
+    found = temper.find_weights(mesh, goal="elastic", tensor=LAYERS, constraints="distances")
+    assert found.corner_weights.shape == weights.shape
+    mesh.weights = found.corner_weights
+    assert np.array_equal(mesh.cell_data["corner_weights"], found.corner_weights)
+    mesh.weights = np.zeros(len(mesh.points))
+    assert "corner_weights" not in mesh.cell_data
+
+
+def test_wrong_tensors_of_tetrahedra_say_what_was_expected():
+    mesh = cubes_in_layers(2)
+    with pytest.raises(ValueError, match="tensor: expected kxx, kxy, kxz, kyy, kyz, kzz, found 3 numbers"):
+        temper.dec_operators(mesh, tensor=(1, 0, 1))
+    with pytest.raises(ValueError, match=r"one for each tetrahedron, shape \(48, 6\)"):
+        temper.dec_operators(mesh, tensor=np.ones((4, 6)))
+    with pytest.raises(temper.TemperError, match="positive definite"):
+        temper.dec_operators(mesh, tensor=(1, 0, 0, -1, 0, 1))
+    with pytest.raises(temper.TemperError, match="four for each of 48 tetrahedra"):
+        mesh.weights = np.ones((3, 4))
+
+
 if __name__ == "__main__":
     main()

@@ -7,12 +7,16 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <span>
+#include <tuple>
+#include <type_traits>
 
 #include "console.hpp"
 #include "files/region_values.hpp"
 #include "options/options.hpp"
 #include "temper/detail/suggest.hpp"
 #include "temper/feasibility.hpp"
+#include "temper/tets/weights.hpp"
 
 namespace temper::app {
 namespace {
@@ -32,12 +36,27 @@ std::optional<std::vector<double>> numbers_of(const std::vector<std::string>& wo
   return numbers;
 }
 
-Tensor tensor_from(const std::vector<double>& k, const std::string& text) {
-  if (k.size() != 3)
-    throw BadValue(fmt::format("expected three numbers KXX,KXY,KYY, found {} in '{}'", k.size(), text));
-  const Tensor tensor = {k[0], k[1], k[2]};
-  if (const auto metric = Metric::of(tensor); !metric) throw BadValue(metric.error().message);
-  return tensor;
+template <class K>
+K tensor_from(std::span<const double> k) {
+  if constexpr (std::is_same_v<K, Tensor>)
+    return {k[0], k[1], k[2]};
+  else
+    return {k[0], k[1], k[2], k[3], k[4], k[5]};
+}
+
+/// The components, if they are those of a tensor.
+std::vector<double> checked(std::vector<double> k, const std::string& text) {
+  std::optional<InputError> wrong;
+  if (k.size() == 3) {
+    if (const auto metric = Metric::of(tensor_from<Tensor>(k)); !metric) wrong = metric.error();
+  } else if (k.size() == 6) {
+    if (const auto metric = tets::Metric::of(tensor_from<Tensor3>(k)); !metric) wrong = metric.error();
+  } else {
+    throw BadValue(fmt::format("expected three numbers {}, or for tetrahedra six numbers {}; found {} in '{}'",
+                               Triangles::tensor, Tetrahedra::tensor, k.size(), text));
+  }
+  if (wrong) throw BadValue(wrong->message);
+  return k;
 }
 
 void take(TensorOption& option, const std::string& text) {
@@ -45,26 +64,31 @@ void take(TensorOption& option, const std::string& text) {
     if (others) throw BadValue(fmt::format("expected tensors of regions, or one other value, found '{}', too", text));
   };
   if (const std::size_t equals = text.find('='); equals != std::string::npos) {
-    one_kind(option.metric || !option.data.empty());
-    const auto numbers = numbers_of(separated(std::string_view(text).substr(equals + 1)));
-    if (!numbers) throw BadValue(fmt::format("expected REGION=KXX,KXY,KYY, found '{}'", text));
-    option.of_regions.emplace_back(text.substr(0, equals), tensor_from(*numbers, text));
+    one_kind(!option.one.empty() || !option.data.empty());
+    auto numbers = numbers_of(separated(std::string_view(text).substr(equals + 1)));
+    if (!numbers) throw BadValue(fmt::format("expected REGION={}, found '{}'", Triangles::tensor, text));
+    option.of_regions.emplace_back(text.substr(0, equals), checked(*std::move(numbers), text));
     return;
   }
   one_kind(option.given());
   const std::vector<std::string> words = separated(text);
-  if (const auto numbers = numbers_of(words)) {
-    option.metric = *Metric::of(tensor_from(*numbers, text));
-  } else if (words.size() == 1 || words.size() == 3) {
+  if (auto numbers = numbers_of(words)) {
+    option.one = checked(*std::move(numbers), text);
+  } else if (words.size() == 1 || (words.size() >= 3 && words.size() <= 6)) {
     option.data = words;
   } else {
-    throw BadValue(
-        fmt::format("expected KXX,KXY,KYY, REGION=KXX,KXY,KYY, or one or three names of cell data, found '{}'", text));
+    throw BadValue(fmt::format("expected {0}, REGION={0}, or one or three to six names of cell data, found '{1}'",
+                               Triangles::tensor, text));
   }
 }
 
-const io::DataArray& find_data(const Input& input, const std::string& name, int components) {
-  const std::vector<io::DataArray>& all = input.file.triangles.data;
+constexpr std::string_view numbers_in_words(int n) {
+  return n == 1 ? "one number" : n == 3 ? "three numbers" : "six numbers";
+}
+
+template <class Subject>
+const io::DataArray& find_data(const InputOf<Subject>& input, const std::string& name, int components) {
+  const std::vector<io::DataArray>& all = (input.file.*Subject::cells_of_file).data;
   const auto found = std::ranges::find_if(
       all, [&](const io::DataArray& array) { return array.name == name && array.components == components; });
   if (found != all.end()) return *found;
@@ -72,36 +96,83 @@ const io::DataArray& find_data(const Input& input, const std::string& name, int 
   for (const io::DataArray& array : all) {
     if (array.components == components) names.push_back(array.name);
   }
-  throw Failure(Exit::bad_usage,
-                fmt::format("{}: --tensor: there are no cell data '{}' of {}; {}. Next: give one of these, or "
-                            "REGION=KXX,KXY,KYY",
-                            input.path, name, components == 1 ? "one number" : "three numbers",
-                            names.empty() ? "the file has none of that size" : "there are " + join(names)));
+  throw Failure(
+      Exit::bad_usage,
+      fmt::format("{}: --tensor: there are no cell data '{}' of {}; {}. Next: give one of these, or REGION={}",
+                  input.path, name, numbers_in_words(components),
+                  names.empty() ? "the file has none of that size" : "there are " + join(names), Subject::tensor));
 }
 
-/// The tensor with axes that are turned counter-clockwise from x and y [degrees], as angle1 of MODFLOW turns k11 and
-/// k22.
-Tensor turned(double k11, double k22, double degrees) {
-  const double c = std::cos(degrees / kDegrees), s = std::sin(degrees / kDegrees);
-  return {k11 * c * c + k22 * s * s, (k11 - k22) * c * s, k11 * s * s + k22 * c * c};
+/// The tensor with axes that are turned as MODFLOW turns k11, k22 and k33 [degrees]. angle1 turns them about z, from x
+/// to y. angle2 then lifts the first axis, and angle3 turns the others about it, the second axis downwards.
+Tensor turned(const std::array<double, 2>& k, double angle1) {
+  const double c = std::cos(angle1 / kDegrees), s = std::sin(angle1 / kDegrees);
+  return {k[0] * c * c + k[1] * s * s, (k[0] - k[1]) * c * s, k[0] * s * s + k[1] * c * c};
 }
-
-/// Three names are k11, k22 and an angle if the last one begins with "angle", else kxx, kxy and kyy.
-std::vector<Tensor> from_data(const TensorOption& option, const Input& input) {
-  std::vector<Tensor> tensors(input.mesh().n_triangles());
-  if (option.data.size() == 1) {
-    const std::vector<double> values = as_doubles(find_data(input, option.data[0], 3));
-    for (std::size_t t = 0; t < tensors.size(); ++t) tensors[t] = {values[3 * t], values[3 * t + 1], values[3 * t + 2]};
-    return tensors;
+Tensor3 turned(const std::array<double, 3>& k, const std::array<double, 3>& angles) {
+  const auto cosine = [&](std::size_t i) { return std::cos(angles[i] / kDegrees); };
+  const auto sine = [&](std::size_t i) { return std::sin(angles[i] / kDegrees); };
+  const double c1 = cosine(0), s1 = sine(0), c2 = cosine(1), s2 = sine(1), c3 = cosine(2), s3 = sine(2);
+  const Vec3 first = {c1 * c2, s1 * c2, s2}, level = {-s1, c1, 0}, up = cross(first, level);
+  const std::array<Vec3, 3> axes = {first, c3 * level - s3 * up, s3 * level + c3 * up};
+  Tensor3 sum = {0, 0, 0, 0, 0, 0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [x, y, z] = axes[i];
+    sum.xx += k[i] * x * x, sum.xy += k[i] * x * y, sum.xz += k[i] * x * z;
+    sum.yy += k[i] * y * y, sum.yz += k[i] * y * z, sum.zz += k[i] * z * z;
   }
-  std::array<std::vector<double>, 3> values;
-  for (std::size_t i = 0; i < 3; ++i) values.at(i) = as_doubles(find_data(input, option.data[i], 1));
-  const bool turns = option.data[2].starts_with("angle");
-  for (std::size_t t = 0; t < tensors.size(); ++t) {
-    tensors[t] =
-        turns ? turned(values[0][t], values[1][t], values[2][t]) : Tensor{values[0][t], values[1][t], values[2][t]};
+  return sum;
+}
+
+/// The tensor of one cell, from the numbers of its arrays; with `turns` they are conductivities and angles.
+template <class K>
+K tensor_of_numbers(const std::vector<double>& k, bool turns) {
+  if (!turns) return tensor_from<K>(k);
+  if constexpr (std::is_same_v<K, Tensor>)
+    return turned({k[0], k[1]}, k[2]);
+  else
+    return turned({k[0], k[1], k[2]}, {k[3], k.size() > 4 ? k[4] : 0, k.size() > 5 ? k[5] : 0});
+}
+
+/// Several names are of conductivities along axes and of angles if the first one after the axes begins with "angle".
+/// Else they are of the components.
+template <class Subject>
+std::vector<typename Subject::Tensor> from_data(const TensorOption& option, const InputOf<Subject>& input) {
+  using K = typename Subject::Tensor;
+  constexpr std::size_t n_components = std::tuple_size_v<decltype(K().components())>;
+  const std::vector<std::string>& names = option.data;
+  const bool is_one = names.size() == 1;
+  const auto n_axes = static_cast<std::size_t>(Subject::dimension);
+  const bool turns = names.size() > n_axes && names[n_axes].starts_with("angle");
+  if (!is_one && !(turns && names.size() <= n_components) && names.size() != n_components) {
+    throw Failure(Exit::bad_usage,
+                  fmt::format("{}: --tensor: {} need one name of cell data, {} names of {}, or {}; found {} names",
+                              input.path, Subject::elements, n_components, K::kNames,
+                              n_axes == 2 ? "k11,k22,angle1" : "k11,k22,k33,angle1[,angle2[,angle3]]", names.size()));
+  }
+  std::vector<std::vector<double>> columns;
+  for (const std::string& name : names)
+    columns.push_back(as_doubles(find_data(input, name, is_one ? static_cast<int>(n_components) : 1)));
+  std::vector<K> tensors;
+  for (const auto t : elements_of(input.mesh())) {
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < (is_one ? n_components : columns.size()); ++i)
+      numbers.push_back(is_one ? columns[0][n_components * t.index + i] : columns[i][t.index]);
+    tensors.push_back(tensor_of_numbers<K>(numbers, turns));
   }
   return tensors;
+}
+
+/// The tensor of these components. Failure if they are those of other cells.
+template <class Subject>
+typename Subject::Tensor given_tensor(const std::vector<double>& components, const InputOf<Subject>& input) {
+  using K = typename Subject::Tensor;
+  if (components.size() != K().components().size()) {
+    throw Failure(Exit::bad_usage,
+                  fmt::format("{}: --tensor: {} need {} numbers {}, found {}", input.path, Subject::elements,
+                              K().components().size(), Subject::tensor, components.size()));
+  }
+  return tensor_from<K>(components);
 }
 
 /// Names that know the copies of vertices of interfaces.
@@ -113,6 +184,10 @@ class PieceNames final : public tets::InputNames {
   [[nodiscard]] std::string triangle(std::size_t index) const override { return whole_->triangle(index); }
   [[nodiscard]] std::string point_where(std::size_t index) const override { return whole_->point_where(first(index)); }
   [[nodiscard]] std::string triangle_where(std::size_t index) const override { return whole_->triangle_where(index); }
+  [[nodiscard]] std::string tetrahedron(std::size_t index) const override { return whole_->tetrahedron(index); }
+  [[nodiscard]] std::string tetrahedron_where(std::size_t index) const override {
+    return whole_->tetrahedron_where(index);
+  }
 
  private:
   [[nodiscard]] std::size_t first(std::size_t index) const {
@@ -122,18 +197,26 @@ class PieceNames final : public tets::InputNames {
   IdVector<VertexId, VertexId> first_copies_;
 };
 
-void warn_of_crossings(const Input& input, const MetricMesh& pieces) {
+/// Warns if dual edges do not cross interfaces at one place.
+template <class Subject>
+void warn_of_crossings(const InputOf<Subject>& input, const typename Subject::Pieces& pieces) {
   const double apart = largest_gap(pieces);
   if (apart <= kSameCrossing) return;
-  print_warnings(std::array{fmt::format(
+  bool can_keep = true;
+  if constexpr (std::is_same_v<Subject, Tetrahedra>) can_keep = tets::largest_gap_of_edges(pieces) > kSameCrossing;
+  const std::string where = fmt::format(
       "{}: from its two sides, a dual edge crosses an interface between tensors at places that are up to {:.2g} edge "
-      "lengths apart. Next: temper optimize or temper weights, with --tensor",
-      input.path, apart)});
+      "lengths apart",
+      input.path, apart);
+  print_warnings(std::array{
+      where + (can_keep ? ". Next: temper optimize or temper weights, with --tensor"
+                        : ": within the face they are no multiples of each other, and no weights change that")});
 }
 
 }  // namespace
 
-void name_copies(Input& input, const MetricMesh& pieces) {
+template <class Subject>
+void name_copies(InputOf<Subject>& input, const typename Subject::Pieces& pieces) {
   if (!pieces.is_cut()) return;
   input.names = std::make_shared<PieceNames>(input.names, pieces.first_copies);
   std::vector<std::size_t> points;
@@ -144,17 +227,21 @@ void name_copies(Input& input, const MetricMesh& pieces) {
   input.points = std::move(points);
 }
 
-void add_tensor(Command& command, TensorOption& tensor, const std::string& what) {
+void add_tensor(Command& command, TensorOption& tensor, const std::string& what, CellKinds cells) {
   Option option;
   option.names = "--tensor";
   option.value_name = "K";
   option.sentence = what +
                     " in the metric of the diffusion tensor K of -div(K grad u). K is KXX,KXY,KYY for all, or "
                     "REGION=KXX,KXY,KYY for each region, repeated. Or K names cell data: one array of three numbers, "
-                    "three arrays kxx,kxy,kyy, or k11,k22,angle1 as MODFLOW has them. See docs/howto/anisotropic.md.";
+                    "three arrays kxx,kxy,kyy, or k11,k22,angle1 as MODFLOW has them. " +
+                    (cells == CellKinds::triangles
+                         ? ""
+                         : "For tetrahedra a tensor is KXX,KXY,KXZ,KYY,KYZ,KZZ, and axes are k11,k22,k33. ") +
+                    "See docs/howto/anisotropic.md.";
   option.take = [&tensor](const std::string& text) { take(tensor, text); };
   option.values = Values::repeated;
-  option.cells = CellKinds::triangles;
+  option.cells = cells;
   command.add(std::move(option));
 }
 
@@ -163,42 +250,59 @@ void expect_without(const Command& command, const TensorOption& tensor, const st
   refuse_usage(command.name(), fmt::format("--tensor does not go with {}", option));
 }
 
-std::vector<Tensor> tensors_of(const TensorOption& tensor, const Input& input) {
+template <class Subject>
+std::vector<typename Subject::Tensor> tensors_of(const TensorOption& tensor, const InputOf<Subject>& input) {
+  if (!tensor.one.empty()) return {given_tensor(tensor.one, input)};
   if (!tensor.data.empty()) return from_data(tensor, input);
   if (tensor.of_regions.empty()) return {};
-  std::map<std::int32_t, Tensor> values;
-  for (const auto& [name, value] : tensor.of_regions) {
-    const std::int32_t region = tag_of("--tensor", name, Triangles::dimension, input);
-    if (!values.emplace(region, value).second)
+  std::map<std::int32_t, typename Subject::Tensor> values;
+  for (const auto& [name, components] : tensor.of_regions) {
+    const std::int32_t region = tag_of("--tensor", name, Subject::dimension, input);
+    if (!values.emplace(region, given_tensor(components, input)).second)
       throw Failure(Exit::bad_usage, fmt::format("{}: --tensor: region {} has two values", input.path, region));
   }
   return at_elements("--tensor", values, input);
 }
 
-MetricMesh in_metric(const Mesh& mesh, const TensorOption& tensor, const std::vector<Tensor>& tensors,
-                     const std::vector<double>& corner_weights, const Input& input) {
-  const auto metrics =
-      tensors.empty() ? Expected<Metrics>(Metrics(*tensor.metric)) : Metrics::of(tensors, *input.names);
+template <class Subject>
+typename Subject::Pieces in_metric(const typename Subject::Mesh& mesh,
+                                   const std::vector<typename Subject::Tensor>& tensors,
+                                   const std::vector<double>& corner_weights, const InputOf<Subject>& input) {
+  using Metrics = typename Subject::Metrics;
+  const auto one = [&] { return MetricOf<typename Subject::Tensor>::of(tensors.front()); };
+  const Expected<Metrics> metrics =
+      tensors.size() == 1 ? Expected<Metrics>(Metrics(or_fail(one()))) : Metrics::of(tensors, *input.names);
   if (!metrics) throw as_failure(located(metrics.error(), input.path));
   auto there = mapped(mesh, *metrics, corner_weights, *input.names);
   if (!there) throw as_failure(located(there.error(), input.path));
   return *std::move(there);
 }
 
-std::optional<MetricMesh> metric_of(const Input& input, const TensorOption& tensor) {
+template <class Subject>
+std::optional<typename Subject::Pieces> metric_of(const InputOf<Subject>& input, const TensorOption& tensor) {
   if (!tensor.given()) return {};
-  return in_metric(input.mesh(), tensor, tensors_of(tensor, input), io::corner_weights_of(input.file, input.loaded),
-                   input);
+  return in_metric(input.mesh(), tensors_of(tensor, input), io::corner_weights_of(input.file, input.loaded), input);
 }
 
-std::optional<MetricView> take_to_metric(Input& input, const TensorOption& tensor) {
-  std::optional<MetricMesh> pieces = metric_of(input, tensor);
+template <class Subject>
+std::optional<MetricViewOf<Subject>> take_to_metric(InputOf<Subject>& input, const TensorOption& tensor) {
+  auto pieces = metric_of(input, tensor);
   if (!pieces) return {};
-  MetricView view = {input.mesh(), *std::move(pieces)};
+  MetricViewOf<Subject> view = {input.mesh(), *std::move(pieces)};
   warn_of_crossings(input, view.pieces);
   name_copies(input, view.pieces);
   input.loaded.mesh = view.pieces.mesh;
   return view;
 }
+
+#define TEMPER_MAKE(S)                                                                                    \
+  template std::vector<S::Tensor> tensors_of(const TensorOption&, const InputOf<S>&);                     \
+  template S::Pieces in_metric(const S::Mesh&, const std::vector<S::Tensor>&, const std::vector<double>&, \
+                               const InputOf<S>&);                                                        \
+  template void name_copies(InputOf<S>&, const S::Pieces&);                                               \
+  template std::optional<S::Pieces> metric_of(const InputOf<S>&, const TensorOption&);                    \
+  template std::optional<MetricViewOf<S>> take_to_metric(InputOf<S>&, const TensorOption&);
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
 
 }  // namespace temper::app

@@ -12,42 +12,56 @@
 
 namespace temper::app {
 
-/// The tensors that --tensor names: one for all, one for each region, or data of the cells.
+/// The tensors that --tensor names: one for all, one for each region, or data of the cells. A tensor is a list of its
+/// three components, or six for tetrahedra.
 struct TensorOption {
-  std::optional<Metric> metric;                            ///< of one tensor for all
-  std::vector<std::pair<std::string, Tensor>> of_regions;  ///< by number or name
-  std::vector<std::string> data;  ///< names: of kxx, kxy, kyy; of k11, k22 and an angle; or of one array
+  std::vector<double> one;                                              ///< for all; empty: there is none
+  std::vector<std::pair<std::string, std::vector<double>>> of_regions;  ///< by number or name
+  std::vector<std::string> data;  ///< names: of kxx, kxy, …; of k11, k22, … and angles; or of one array
 
-  [[nodiscard]] bool given() const { return metric || !of_regions.empty() || !data.empty(); }
+  [[nodiscard]] bool given() const { return !one.empty() || may_differ(); }
+  /// Says whether cells may have different tensors.
+  [[nodiscard]] bool may_differ() const { return !of_regions.empty() || !data.empty(); }
 };
 
-/// Adds --tensor; `what` is its purpose.
-void add_tensor(Command& command, TensorOption& tensor, const std::string& what);
+/// Adds --tensor for these cells; `what` is its purpose.
+void add_tensor(Command& command, TensorOption& tensor, const std::string& what, CellKinds cells = CellKinds::both);
 
 /// Failure when an option for the plane of the file was given, too.
 void expect_without(const Command& command, const TensorOption& tensor, const std::string& option);
 
-/// The tensor of each triangle of the input; none if all have one. Failure if a region or data are missing.
-[[nodiscard]] std::vector<Tensor> tensors_of(const TensorOption& tensor, const Input& input);
+/// The tensor of each cell of the input; none without --tensor. If all have one, it is the only one. Failure if a
+/// region or data are missing, or if tensors are those of other cells.
+template <class Subject>
+[[nodiscard]] std::vector<typename Subject::Tensor> tensors_of(const TensorOption& tensor,
+                                                               const InputOf<Subject>& input);
 
-/// A mesh of that input in the planes of its metrics. `tensors` and `corner_weights` are of its triangles and corners,
-/// if there are several tensors.
-[[nodiscard]] MetricMesh in_metric(const Mesh& mesh, const TensorOption& tensor, const std::vector<Tensor>& tensors,
-                                   const std::vector<double>& corner_weights, const Input& input);
+/// A mesh of that input in the planes of its metrics. `tensors` and `corner_weights` are of its cells and corners.
+template <class Subject>
+[[nodiscard]] typename Subject::Pieces in_metric(const typename Subject::Mesh& mesh,
+                                                 const std::vector<typename Subject::Tensor>& tensors,
+                                                 const std::vector<double>& corner_weights,
+                                                 const InputOf<Subject>& input);
 
 /// Lets names and points of the input count the copies of vertices of interfaces, too.
-void name_copies(Input& input, const MetricMesh& pieces);
+template <class Subject>
+void name_copies(InputOf<Subject>& input, const typename Subject::Pieces& pieces);
 
 /// The mesh of the input in the planes of its metrics, if there are tensors.
-[[nodiscard]] std::optional<MetricMesh> metric_of(const Input& input, const TensorOption& tensor);
+template <class Subject>
+[[nodiscard]] std::optional<typename Subject::Pieces> metric_of(const InputOf<Subject>& input,
+                                                                const TensorOption& tensor);
 
 /// A mesh in its own plane, and in the planes of its metrics.
-struct MetricView {
-  Mesh plain;
-  MetricMesh pieces;
+template <class Subject>
+struct MetricViewOf {
+  typename Subject::Mesh plain;
+  typename Subject::Pieces pieces;
 };
+using MetricView = MetricViewOf<Triangles>;
 /// Puts the mesh of the input into the planes of its metrics, if there are tensors, and names copies. Warns if weights
 /// do not keep the equations of interfaces.
-std::optional<MetricView> take_to_metric(Input& input, const TensorOption& tensor);
+template <class Subject>
+std::optional<MetricViewOf<Subject>> take_to_metric(InputOf<Subject>& input, const TensorOption& tensor);
 
 }  // namespace temper::app

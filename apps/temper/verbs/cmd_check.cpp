@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "console.hpp"
@@ -104,6 +105,48 @@ void as_in_plane(Quality& measured, const MetricView& view) {
   measured.boundary_edges -= 2 * seams;
 }
 
+/// The metric of a tetrahedron at a vertex of pieces.
+const tets::Metric& metric_at(const tets::MetricMesh& pieces, VertexId v) {
+  return pieces.metric(pieces.mesh.incident(v));
+}
+
+/// The number of edges of interfaces in the pieces that are copies of others.
+std::size_t count_copied_edges(const tets::MetricMesh& pieces) {
+  using Edge = std::pair<VertexId, VertexId>;
+  std::set<Edge> copies, edges;
+  for (const tets::SeamFace& seam : seams_of(pieces)) {
+    for (const tets::HalffaceId h : {seam.one, seam.other}) {
+      const auto [a, b, c] = pieces.mesh.vertices(h);
+      for (const auto& [p, q] : {Edge(a, b), Edge(b, c), Edge(c, a)}) {
+        copies.insert(std::minmax(p, q));
+        const VertexId first = pieces.first_copy(p), second = pieces.first_copy(q);
+        edges.insert(std::minmax(first, second));
+      }
+    }
+  }
+  return copies.size() - edges.size();
+}
+
+void as_in_plane(tets::Quality& measured, const MetricViewOf<Tetrahedra>& view) {
+  const tets::MetricMesh& pieces = view.pieces;
+  for (tets::WorstTet& worst : measured.worst) worst.at = pieces.metric(worst.tetrahedron).from_metric(worst.at);
+  const auto move_back = [&](auto& place) {
+    if (place.vertices[0].valid()) place.at = metric_at(pieces, place.vertices[0]).from_metric(place.at);
+  };
+  move_back(measured.min_coefficient_place);
+  move_back(measured.min_distance_place);
+  const std::size_t seams = seams_of(pieces).size();
+  measured.vertices = view.plain.n_vertices();
+  const auto outer = boundary_vertices(view.plain);
+  measured.inner_vertices = static_cast<std::size_t>(std::count(outer.begin(), outer.end(), std::uint8_t{0}));
+  measured.edges -= count_copied_edges(pieces);
+  measured.faces -= seams;
+  measured.boundary_faces -= 2 * seams;
+  std::set<std::int32_t> regions;
+  for (const tets::TetId t : view.plain.tetrahedra()) regions.insert(view.plain.region(t));
+  measured.regions = regions.size();
+}
+
 class Checks {
  public:
   Checks(const Command& command, const CheckSettings& settings)
@@ -175,7 +218,10 @@ class Checks {
     return measured;
   }
   [[nodiscard]] tets::Quality measure(TetInput& input) const {
-    return quality(input.mesh(), {s_.worst, threads_.get()});
+    const auto view = take_to_metric(input, s_.tensor);
+    tets::Quality measured = quality(input.mesh(), {s_.worst, threads_.get()});
+    if (view) as_in_plane(measured, *view);
+    return measured;
   }
   /// Prints or keeps the report, writes it where --write asks for it, and gives the verdict on the requirements.
   void report(const std::string& path, const std::vector<Outcome>& outcomes, const std::string& json,

@@ -80,7 +80,7 @@ void add_options(Command& command, DrawSettings& s) {
       command, "--cells", kCellsOf, [&s](CellsOf value) { s.cells = value; },
       "Cells to fill by their regions, instead of triangles by their margin: power cells or triangles. Of the edges, "
       "only boundaries and lines are drawn. Lines on faces of power cells are thick, and have their names.");
-  add_tensor(command, s.tensor, "Draw meshes");
+  add_tensor(command, s.tensor, "Draw meshes", CellKinds::triangles);
   command.add_flag("--numbers", s.options.vertex_numbers, "Number the vertices, from 0.");
   add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "Factor on the radius of weight circles.");
   add_numbers(

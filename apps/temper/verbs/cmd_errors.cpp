@@ -140,10 +140,6 @@ MeasureErrorsOptions without_orders(MeasureErrorsOptions options) {
 }
 tets::MeasureErrorsOptions without_orders(tets::MeasureErrorsOptions options) { return options; }
 
-/// The meshes as the measures see them.
-void take_metric(const ErrorSettings& s, Input& input) { take_to_metric(input, s.tensor); }
-void take_metric(const ErrorSettings& /*s*/, const TetInput& /*input*/) {}
-
 void write_edges(const ErrorSettings& s, const ErrorRecord<Triangles>& record, const Input& input, Outputs& outputs) {
   if (!s.edges.empty()) outputs.write_text(s.edges, edge_errors_csv(record.report, input));
 }
@@ -160,13 +156,13 @@ InputOf<Subject> read_reference(const ErrorSettings& s, const InputOf<Subject>& 
 /// The report about manufactured solutions.
 template <class Subject>
 void report_fields(const ErrorSettings& s, InputOf<Subject>& input, Outputs& outputs, Executor* executor) {
-  take_metric(s, input);
+  take_to_metric(input, s.tensor);
   const auto options = error_options(s, input, executor);
   const auto measured = [](const auto& mesh, const auto& how) { return or_fail(measure_errors(mesh, how)); };
   ErrorRecord<Subject> record = {s.input, measured(input.mesh(), options), {}};
   if (!s.against.empty()) {
     InputOf<Subject> reference = read_reference(s, input, executor);
-    take_metric(s, reference);
+    take_to_metric(reference, s.tensor);
     compare_boxes(s, *options.frame, field_frame(reference.mesh()));
     record.against = {s.against, measured(reference.mesh(), without_orders(options)), {}};
     record.against->ratios = or_fail(error_ratios(record.report, record.against->report));

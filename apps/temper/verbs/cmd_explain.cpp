@@ -37,7 +37,7 @@ void add_options(Command& command, ExplainSettings& s) {
   add_projection(command, s.projection);
   add_heights(command, s.heights);
   add_target(command, s.target, false);
-  add_tensor(command, s.tensor, "Explain triangles");
+  add_tensor(command, s.tensor, "Explain triangles", CellKinds::triangles);
   command.add_flag("--json", s.json, "Print all reasons as JSON, with vertices and elements counted from 0.");
   add_count(command, "--limit", s.limit, 0,
             "Largest number of conflicts to print, and of places for which weights exist. Cures are searched for these "

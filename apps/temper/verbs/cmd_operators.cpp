@@ -119,7 +119,7 @@ void check_layers(const Command& command, const DecSettings& s, const std::vecto
 /// Checks that the cells of layers have one tensor each, and that the solver takes their lengths from the file.
 void check_tensor(const DecSettings& s, const std::vector<io::DecFormat>& formats) {
   if (!s.tensor.given() || s.layers.empty()) return;
-  if (!s.tensor.metric && s.cells == CellsOf::vertices)
+  if (s.tensor.may_differ() && s.cells == CellsOf::vertices)
     refuse_usage("operators",
                  "--tensor: a power cell may have several tensors. Next: --cells triangles, or one tensor for all");
   if (std::ranges::find(formats, io::DecFormat::disv) != formats.end())
@@ -187,9 +187,11 @@ std::vector<io::Barrier> make_barriers(const DecSettings& s, const Input& input)
   return *std::move(made);
 }
 
-void write(const Command& command, const DecSettings& s, const TetInput& input,
-           const std::vector<io::DecFormat>& formats, Executor* executor) {
-  const tets::DecComplex complex = with_k(command, s, input, tets::dec_operators(input.mesh()));
+void write(const Command& command, const DecSettings& s, TetInput& input, const std::vector<io::DecFormat>& formats,
+           Executor* executor) {
+  const auto view = take_to_metric(input, s.tensor);
+  tets::DecComplex complex = with_k(command, s, input, tets::dec_operators(input.mesh()));
+  if (view) complex = mapped_back(std::move(complex), view->pieces, view->plain);
   const tets::DecSummary summary = tets::summarize(complex);
   TetDecRecord record = {s.input, summary, {}};
   print_warnings(dec_warnings(record));
@@ -197,7 +199,7 @@ void write(const Command& command, const DecSettings& s, const TetInput& input,
   options.formats = formats;
   options.points = input.points;
   options.executor = executor;
-  record.files = or_fail(io::write_dec(s.output, input.mesh(), complex, options));
+  record.files = or_fail(io::write_dec(s.output, view ? view->plain : input.mesh(), complex, options));
   s.json ? print_data(dec_json(record)) : print(dec_text(record));
 }
 

@@ -210,8 +210,7 @@ void add_options(Command& command, WeightsSettings& s) {
 /// What a scheme needs, unless other options say so. --mode accuracy takes the factors of the scheme alone.
 void follow_scheme(const Command& command, WeightsSettings& s) {
   if (!command.was_given("--for") || s.options.goal == WeightGoal::accuracy) return;
-  const bool one_plane = s.tensor.of_regions.empty() && s.tensor.data.empty();
-  if (!command.was_given("--mode")) s.options.goal = one_plane ? WeightGoal::least : WeightGoal::change;
+  if (!command.was_given("--mode")) s.options.goal = s.tensor.may_differ() ? WeightGoal::change : WeightGoal::least;
   if (!command.was_given("--constraints"))
     s.options.constraints =
         std::ranges::find(all_constraints(), name(criterion_of(s.scheme)), &ConstraintsInfo::name)->constraints;
@@ -427,16 +426,17 @@ WeightsRecord record_of(const WeightsSettings& s, const InputOf<Subject>& input,
 }
 
 /// Finds weights in the planes of tensors.
-Exit find_in_metric(const WeightsSettings& s, Input& input, Outputs& outputs) {
-  MetricMesh pieces = in_metric(input.mesh(), s.tensor, tensors_of(s.tensor, input),
-                                io::corner_weights_of(input.file, input.loaded), input);
+template <class Subject>
+Exit find_in_metric(const WeightsSettings& s, InputOf<Subject>& input, Outputs& outputs) {
+  typename Subject::Pieces pieces =
+      in_metric(input.mesh(), tensors_of(s.tensor, input), io::corner_weights_of(input.file, input.loaded), input);
   const WeightReport report = or_fail(find_weights(pieces, *clp_solver(), s.options, interior_point_solver().get()));
-  Input named = input;
+  InputOf<Subject> named = input;
   name_copies(named, pieces);
   WeightsRecord record = record_of(s, named, pieces.mesh, report, nullptr);
   if (report.solved && !s.output.path.empty()) {
     pieces.mesh = with_weights(std::move(pieces.mesh), report.weights);
-    const WholeMesh whole = or_fail(mapped_back(pieces, input.mesh(), pieces));
+    const typename Subject::WholeMesh whole = or_fail(mapped_back(pieces, input.mesh(), pieces));
     io::update(input.file, input.loaded, whole.mesh);
     io::set_corner_weights(input.file, whole.corner_weights);
     print_warnings(outputs.write_mesh(s.output, input.file));
@@ -478,6 +478,7 @@ Exit run(WeightsSettings& s, Input& input, Outputs& outputs) {
   return search ? find(s, input, search->mesh, &*search, outputs) : find(s, input, input.mesh(), nullptr, outputs);
 }
 Exit run(const WeightsSettings& s, TetInput& input, Outputs& outputs) {
+  if (s.tensor.given()) return find_in_metric(s, input, outputs);
   return find(s, input, input.mesh(), nullptr, outputs);
 }
 

@@ -69,10 +69,10 @@ inline void release_mesh(TetInput& input, RunResults<Tetrahedra>& results) {
 [[nodiscard]] inline const auto& parts_of(const tets::BestSoFar& best) { return best.origins; }
 
 /// Weights for each vertex and region go into the file.
-inline void add_corner_weights(const OptimizeReport& report, io::MeshFile& file) {
+template <class Report>
+void add_corner_weights(const Report& report, io::MeshFile& file) {
   io::set_corner_weights(file, report.corner_weights);
 }
-inline void add_corner_weights(const tets::OptimizeReport& /*report*/, io::MeshFile& /*file*/) {}
 
 /// The objective that the run lowered at last.
 [[nodiscard]] inline Objective last_objective(const OptimizeReport& report) { return report.objective; }

@@ -2,6 +2,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <optional>
+#include <vector>
+
 #include "console.hpp"
 #include "reports/quality_report.hpp"
 #include "temper/solvers.hpp"
@@ -22,6 +26,30 @@ std::vector<std::string> warning_of_effort(const OptimizeSettings& s) {
                   fmt::join(s.keep, ","))};
 }
 
+/// The options of the run, with tensors.
+OptimizeOptions options_of(const OptimizeSettings& s, const TetInput& input, const std::vector<Tensor3>& tensors) {
+  OptimizeOptions options = s.options;
+  options.tetrahedra_tensors = tensors;
+  if (s.tensor.may_differ()) options.corner_weights = io::corner_weights_of(input.file, input.loaded);
+  return options;
+}
+
+/// A mesh as its measures see it: itself, or in the metrics of tensors.
+class Seen {
+ public:
+  /// `tensors`: of all tetrahedra, or one for all.
+  Seen(const tets::TetMesh& mesh, const std::vector<Tensor3>& tensors, const std::vector<double>& corner_weights,
+       const TetInput& input)
+      : mesh_(mesh) {
+    if (!tensors.empty()) there_.emplace(in_metric(mesh, tensors, corner_weights, input));
+  }
+  [[nodiscard]] const tets::TetMesh& mesh() const { return there_ ? there_->mesh : mesh_; }
+
+ private:
+  const tets::TetMesh& mesh_;
+  std::optional<tets::MetricMesh> there_;
+};
+
 }  // namespace
 
 void prepare(const Command& /*command*/, const OptimizeSettings& s, const TetInput& /*input*/,
@@ -32,9 +60,13 @@ void prepare(const Command& /*command*/, const OptimizeSettings& s, const TetInp
 
 void improve(const OptimizeSettings& s, TetInput& input, const RunFiles& files, RunResults<Tetrahedra>& results) {
   const tets::QualityOptions measuring = {tets::QualityOptions().worst, files.threads};
-  results.before = quality(input.mesh(), measuring);
+  std::vector<Tensor3> tensors = tensors_of(s.tensor, input);
+  const OptimizeOptions options = options_of(s, input, tensors);
+  const Seen before(input.mesh(), tensors, options.corner_weights, input);
+  results.before = quality(before.mesh(), measuring);
   catch_interrupts();
-  print(fmt::format("{}: {}\n", s.input, mesh_size(results.before)));
+  const std::string size = s.tensor.given() ? mesh_size(input.mesh()) : mesh_size(results.before);
+  print(fmt::format("{}: {}\n", s.input, size));
   flush_output();
   ProgressLine line(!is_quiet() && error_is_terminal(), Tetrahedra::elements);
   tets::OptimizeHooks hooks;
@@ -43,14 +75,18 @@ void improve(const OptimizeSettings& s, TetInput& input, const RunFiles& files, 
   results.second = input.mesh();
   results.improved = &results.second;
   results.original = &input.mesh();
-  Expected<tets::OptimizeReport> report = optimize(results.second, s.options, hooks);
+  Expected<tets::OptimizeReport> report = optimize(results.second, options, hooks);
   if (!report) throw as_failure(spell_options(report.error()));
   for (std::string& note : report->notes) note = spell_options(note);
   results.report = *std::move(report);
-  results.after = quality(results.second, measuring);
+  tensors.resize(std::min<std::size_t>(tensors.size(), 1));  // all have it if the report has none
+  const tets::OptimizeReport& made = results.report;
+  const Seen after(results.second, made.tetrahedra_tensors.empty() ? tensors : made.tetrahedra_tensors,
+                   made.corner_weights, input);
+  results.after = quality(after.mesh(), measuring);
   results.outcomes = judge(s.requirements, results.after, criterion_of_target(s.target));
   if (!s.files.picture.empty())
-    results.picture = draw_before_after_svg(input.mesh(), results.second, tets::middle_plane(input.mesh()));
+    results.picture = draw_before_after_svg(before.mesh(), after.mesh(), tets::middle_plane(before.mesh()));
 }
 
 std::string measures_text(const OptimizeSettings& /*settings*/, const RunResults<Tetrahedra>& results) {

@@ -1,6 +1,7 @@
 // `temper optimize` of triangles: names, depths, sizes and problems of the mesh, and the run of the library.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -40,8 +41,8 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
   hooks.solvers = solvers();
   hooks.tracer = std::move(tracer);
   OptimizeOptions options = s.options;
-  if (s.tensor.metric) options.tensor = s.tensor.metric->tensor();
   options.triangle_tensors = tensors_of(s.tensor, input);
+  if (!s.tensor.one.empty()) options.tensor = std::exchange(options.triangle_tensors, {}).front();
   if (!options.triangle_tensors.empty()) options.corner_weights = io::corner_weights_of(input.file, input.loaded);
   Expected<OptimizeReport> report = optimize(mesh, options, hooks);
   if (!report) throw as_failure(spell_options(report.error()));
@@ -136,9 +137,10 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
   const Mesh* seen = &mesh;
   std::optional<MetricMesh> there;
   const auto look_at = [&](const std::vector<Tensor>& tensors, const std::vector<double>& corner_weights) {
-    if (s.tensor.given()) seen = &there.emplace(in_metric(mesh, s.tensor, tensors, corner_weights, input)).mesh;
+    if (s.tensor.given()) seen = &there.emplace(in_metric(mesh, tensors, corner_weights, input)).mesh;
   };
-  look_at(tensors_of(s.tensor, input), io::corner_weights_of(input.file, input.loaded));
+  std::vector<Tensor> tensors = tensors_of(s.tensor, input);
+  look_at(tensors, io::corner_weights_of(input.file, input.loaded));
   if (!s.files.picture.empty() || !s.files.page.empty()) results.second = *seen;
   const bool shown = !s.files.report.empty() || !s.files.page.empty() || !s.files.picture.empty();
   measuring.brief = !shown && !s.details && s.requirements.empty();
@@ -167,7 +169,9 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
   });
 #endif
   results.report = run_library(s, input, mesh, files.threads, tracer, viewer, !measuring.brief);
-  look_at(results.report.triangle_tensors, results.report.corner_weights);
+  tensors.resize(std::min<std::size_t>(tensors.size(), 1));  // all have it if the report has none
+  look_at(results.report.triangle_tensors.empty() ? tensors : results.report.triangle_tensors,
+          results.report.corner_weights);
 #ifdef TEMPER_WITH_ERRORS
   if (errors) error_result(*errors, *seen, results);
 #endif

@@ -22,8 +22,12 @@
 //     (w_b − w_c)/|bc|² = (w_b' − w_c')/|b'c'|²,
 //
 // with the lengths of either plane. Constant weights on each side of an interface always keep it.
+//
+// In space B = (det K)^⅙ K^−½ changes no volume, the factor is ∛(det K), and temper/tets/tensor.hpp has the rest.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,66 +39,98 @@
 
 namespace temper {
 
-/// A symmetric tensor.
+/// A symmetric tensor of the plane.
 struct Tensor {
   double xx = 1, xy = 0, yy = 1;
+
+  using Vector = Vec2;
+  static constexpr const char* kNames = "kxx,kxy,kyy";
+  [[nodiscard]] std::array<double, 3> components() const { return {xx, xy, yy}; }
+  friend Vec2 operator*(const Tensor& k, Vec2 v) { return {k.xx * v.x + k.xy * v.y, k.xy * v.x + k.yy * v.y}; }
   friend bool operator==(const Tensor&, const Tensor&) = default;
 };
 
-class Metric {
+/// A symmetric tensor of space.
+struct Tensor3 {
+  double xx = 1, xy = 0, xz = 0, yy = 1, yz = 0, zz = 1;
+
+  using Vector = Vec3;
+  static constexpr const char* kNames = "kxx,kxy,kxz,kyy,kyz,kzz";
+  [[nodiscard]] std::array<double, 6> components() const { return {xx, xy, xz, yy, yz, zz}; }
+  friend Vec3 operator*(const Tensor3& k, Vec3 v) {
+    return {k.xx * v.x + k.xy * v.y + k.xz * v.z, k.xy * v.x + k.yy * v.y + k.yz * v.z,
+            k.xz * v.x + k.yz * v.y + k.zz * v.z};
+  }
+  friend bool operator==(const Tensor3&, const Tensor3&) = default;
+};
+
+/// The metric of a tensor K: Tensor or Tensor3.
+template <class K>
+class MetricOf {
  public:
+  using Vector = typename K::Vector;
+
   /// The metric of K = 1.
-  Metric() = default;
+  MetricOf() = default;
   /// Makes the metric of a tensor. Error: the tensor is not positive definite, not finite, or the ratio of its
   /// eigenvalues is too large for doubles (10⁸).
-  [[nodiscard]] static Expected<Metric> of(const Tensor& tensor);
+  [[nodiscard]] static Expected<MetricOf> of(const K& tensor);
 
-  [[nodiscard]] const Tensor& tensor() const { return tensor_; }
-  [[nodiscard]] Vec2 to_metric(Vec2 x) const { return {to_.xx * x.x + to_.xy * x.y, to_.xy * x.x + to_.yy * x.y}; }
-  [[nodiscard]] Vec2 from_metric(Vec2 y) const {
-    return {from_.xx * y.x + from_.xy * y.y, from_.xy * y.x + from_.yy * y.y};
-  }
-  /// The factor √(det K) between ★1 and fluxes of the mapped mesh and those for K.
+  [[nodiscard]] const K& tensor() const { return tensor_; }
+  [[nodiscard]] Vector to_metric(Vector x) const { return to_ * x; }
+  [[nodiscard]] Vector from_metric(Vector y) const { return from_ * y; }
+  /// The factor between ★1 and fluxes of the mapped mesh and those for K: √(det K), in space ∛(det K).
   [[nodiscard]] double strength() const { return strength_; }
 
   /// Says whether both have one plane: their tensors are multiples of each other, and of one Metrics.
-  [[nodiscard]] bool shares_plane(const Metric& other) const { return to_ == other.to_; }
+  [[nodiscard]] bool shares_plane(const MetricOf& other) const { return to_ == other.to_; }
 
  private:
-  friend class Metrics;
-  Tensor tensor_, to_, from_;  // K, B and its inverse
+  template <class, class, class>
+  friend class MetricsOf;
+  K tensor_, to_, from_;  // K, B and its inverse
   double strength_ = 1;
 };
+using Metric = MetricOf<Tensor>;
+template <>
+Expected<Metric> Metric::of(const Tensor& tensor);
+template <>
+Expected<MetricOf<Tensor3>> MetricOf<Tensor3>::of(const Tensor3& tensor);
 
-/// The metric of each triangle of a mesh: one for all, or one for each.
-class Metrics {
+/// The metric of each cell of a mesh: one for all, or one for each. Names are those of the cells, for errors.
+template <class K, class CellId, class Names>
+class MetricsOf {
  public:
-  /// One metric for all triangles.
-  Metrics(const Metric& one = {}) : distinct_{one} {}  // NOLINT(google-explicit-constructor): one is the usual case
-  /// One tensor for each triangle. Tensors that are multiples of each other get one plane. Error: of Metric::of, with
-  /// the triangle.
-  [[nodiscard]] static Expected<Metrics> of(std::span<const Tensor> tensors, const InputNames& names = {});
+  using Cell = CellId;
 
-  /// Says whether all triangles have one tensor.
-  [[nodiscard]] bool is_constant() const { return of_triangle_.empty(); }
-  /// The number of triangles with a tensor of their own; 0 if all have one.
-  [[nodiscard]] std::size_t n_triangles() const { return of_triangle_.size(); }
-  /// The number of the metric of a triangle among the distinct ones.
-  [[nodiscard]] std::uint32_t number(TriangleId t) const { return is_constant() ? 0 : of_triangle_[t]; }
-  [[nodiscard]] const Metric& operator[](std::uint32_t number) const { return distinct_[number]; }
-  [[nodiscard]] const Metric& of(TriangleId t) const { return distinct_[number(t)]; }
+  /// One metric for all cells.
+  MetricsOf(const MetricOf<K>& one = {}) : distinct_{one} {}  // NOLINT(google-explicit-constructor): the usual case
+  /// One tensor for each cell. Tensors that are multiples of each other get one plane. Error: of Metric::of, with the
+  /// cell.
+  [[nodiscard]] static Expected<MetricsOf> of(std::span<const K> tensors, const Names& names = {});
+
+  /// Says whether all cells have one tensor.
+  [[nodiscard]] bool is_constant() const { return of_cell_.empty(); }
+  /// The number of cells with a tensor of their own; 0 if all have one.
+  [[nodiscard]] std::size_t n_cells() const { return of_cell_.size(); }
+  /// The number of the metric of a cell among the distinct ones.
+  [[nodiscard]] std::uint32_t number(CellId t) const { return is_constant() ? 0 : of_cell_[t]; }
+  [[nodiscard]] const MetricOf<K>& operator[](std::uint32_t number) const { return distinct_[number]; }
+  [[nodiscard]] const MetricOf<K>& of(CellId t) const { return distinct_[number(t)]; }
 
  private:
-  std::vector<Metric> distinct_;
-  IdVector<TriangleId, std::uint32_t> of_triangle_;
+  std::vector<MetricOf<K>> distinct_;
+  IdVector<CellId, std::uint32_t> of_cell_;
 };
+using Metrics = MetricsOf<Tensor, TriangleId, InputNames>;
 
 /// A mesh in the planes of its metrics, cut along interfaces, where the plane changes. Its pieces may lie on top of
-/// each other. Without interfaces it has the numbers of the mesh that it was made from. Otherwise triangles and
-/// halfedges do. Vertices, too, and the further copies of interface vertices come after them.
-struct MetricMesh {
-  Mesh mesh;
-  Metrics metrics;
+/// each other. Without interfaces it has the numbers of the mesh that it was made from. Otherwise cells and their
+/// corners do. Vertices, too, and the further copies of interface vertices come after them.
+template <class AnyMesh, class AnyMetrics>
+struct MetricMeshOf {
+  AnyMesh mesh;
+  AnyMetrics metrics;
   /// Of each vertex, the first copy of it in `mesh`: its number before the cut. Empty: there are no interfaces.
   IdVector<VertexId, VertexId> first_copies;
   /// The region before the cut, and the metric, of each region number of `mesh`. Empty: the regions stay, and there is
@@ -107,10 +143,11 @@ struct MetricMesh {
 
   [[nodiscard]] bool is_cut() const { return !first_copies.empty(); }
   [[nodiscard]] VertexId first_copy(VertexId v) const { return is_cut() ? first_copies[v] : v; }
-  [[nodiscard]] const Metric& metric(TriangleId t) const {
+  [[nodiscard]] const auto& metric(typename AnyMetrics::Cell t) const {
     return metrics[regions.empty() ? 0 : regions[static_cast<std::size_t>(mesh.region(t))].metric];
   }
 };
+using MetricMesh = MetricMeshOf<Mesh, Metrics>;
 
 /// An edge of an interface: its halfedge in the mesh on either side.
 struct SeamEdge {

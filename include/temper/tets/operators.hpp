@@ -25,6 +25,7 @@
 
 #include "temper/dec.hpp"
 #include "temper/tets/mesh.hpp"
+#include "temper/tets/tensor.hpp"
 
 namespace temper::tets {
 
@@ -71,6 +72,9 @@ struct DecComplex {
   // With a coefficient, see with_coefficient(); else empty.
   IdVector<TetId, double> coefficient;  ///< K of each tetrahedron
   IdVector<VertexId, double> capacity;  ///< ★0 with K: Σ K d k h / 6, for terms such as K ∂u/∂t [K length³]
+  /// With tensors, see mapped_back(), else empty: K A/h, the transmissibility between the orthocenter of a tetrahedron
+  /// and its face. The transmissibility of a face inside is 1/(1/a + 1/b) for those of its two halffaces.
+  IdVector<HalffaceId, double> half_transmissibility;
 };
 
 /// Computes the operators of a mesh. Precondition: fewer than 2³¹ faces. O(n).
@@ -86,6 +90,17 @@ struct DecComplex {
 [[nodiscard]] Expected<DecComplex> with_coefficient(const TetMesh& mesh, DecComplex complex,
                                                     std::span<const double> coefficient,
                                                     const InputNames* names = nullptr);
+
+/// With diffusion tensors (temper/tets/tensor.hpp): the operators for −div(K ∇u) of a mesh, from the operators of
+/// pieces = mapped(mesh, …). ★1 and transmissibility have the factor ∛(det K). Orthocenters and midpoints are mapped
+/// back. Volumes are equal in both. ★2, lengths, areas, crossings and heights stay in the metric.
+///
+/// At an interface ★1 of an edge is the sum over the pieces around it, each in its own space. Its length and crossing
+/// are of the piece with the first tetrahedron, and its dual area is ℓ times the sum of dual areas over lengths. ★2 of
+/// a face is h_b/A_b + h_a/A_a, and its transmissibility is the harmonic sum of both sides. Its area and its
+/// orthocenter are of the side behind. The height ahead is multiplied by A_b/A_a. ★0 is the sum of all copies of a
+/// vertex.
+[[nodiscard]] DecComplex mapped_back(DecComplex complex, const MetricMesh& pieces, const TetMesh& mesh);
 
 /// A summary of the operators, for a check before a solver uses them.
 struct DecSummary {

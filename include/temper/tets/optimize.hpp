@@ -54,6 +54,10 @@ struct OptimizeHooks {
 /// The objective is the energy at the least γ, or the HOT energy.
 struct OptimizeReport : RunReport {
   Origins origins;  ///< Parts of the result in the input
+  /// Weight of each corner of each tetrahedron of the result, four each, if its tensors have several spaces. Else
+  /// empty.
+  std::vector<double> corner_weights;
+  std::vector<Tensor3> tetrahedra_tensors;  ///< Tensor of each tetrahedron of the result, if they differ. Else empty.
 };
 [[nodiscard]] const ReportTable& table_of(const OptimizeReport*);
 
@@ -79,6 +83,11 @@ struct OptimizeReport : RunReport {
 /// is the mesh with the least measured error. It is the input if this has no bad tetrahedron and less error.
 ///
 /// For a star the run then lowers its HOT energy (src/tets/energy/hot.hpp), and makes no tetrahedron bad.
+///
+/// With OptimizeOptions::tetrahedra_tensors all this is in the metrics of the tensors (temper/tets/tensor.hpp), and the
+/// report, too. Where tensors are no multiples of each other, vertices keep their place, and their weights keep the
+/// equations of interfaces. The input's weights there become 0 unless they keep them. One linear program at the end may
+/// find better ones. Error also: BoundaryVertices::split with several tensors.
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
 /// Options that are out of range, for triangles alone or contradict each other are an error, which leaves the mesh

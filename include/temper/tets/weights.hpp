@@ -27,6 +27,7 @@
 
 #include "temper/feasibility.hpp"
 #include "temper/tets/mesh.hpp"
+#include "temper/tets/tensor.hpp"
 
 namespace temper::tets {
 
@@ -47,5 +48,22 @@ namespace temper::tets {
 ///   - well_centered: the greatest of ℓ², ||r − p|² − |r − q|²| and ||s − p|² − |s − q|²|
 ///   - regular, coefficients, distances: kWeightReach ℓ², an assumption
 [[nodiscard]] CertificateCheck check_certificate(const TetMesh& mesh, const Certificate& certificate);
+
+// --- in the spaces of several tensors (temper/tets/tensor.hpp) ---------------------------------------------------
+
+/// The same with one weight for each vertex and region, and the equations of the edges of interfaces, as
+/// temper::find_weights. Error also: center, accuracy and least across interfaces.
+[[nodiscard]] Expected<WeightReport> find_weights(const MetricMesh& pieces, LpSolver& solver,
+                                                  const WeightOptions& options = {}, ConvexSolver* convex = nullptr);
+/// The same with equations of interfaces as terms.
+[[nodiscard]] CertificateCheck check_certificate(const MetricMesh& pieces, const Certificate& certificate);
+
+/// The largest difference between the crossings d/ℓ of an interface edge, as two of its pieces have them; 0 without
+/// interfaces. With rounding alone, the weights keep all equations.
+[[nodiscard]] double largest_gap_of_edges(const MetricMesh& pieces);
+/// The largest distance between the orthocenters of an interface face, as its two sides have them, in the space of the
+/// mesh and over the longest edge of the face; 0 without interfaces. With rounding alone, dual edges have one crossing
+/// with each interface, and two-point fluxes are exact for a linear pressure on each side.
+[[nodiscard]] double largest_gap(const MetricMesh& pieces);
 
 }  // namespace temper::tets

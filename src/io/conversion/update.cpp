@@ -259,7 +259,9 @@ void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
 }
 
 void release_geometry(MeshFile& file, const LoadedTetMesh& loaded) {
-  if (file.points.size() != loaded.mesh.n_vertices()) return;
+  const auto is_of_corners = [](const DataArray& array) { return array.name == kCornerWeights; };
+  if (file.points.size() != loaded.mesh.n_vertices() || std::ranges::any_of(file.tetrahedra.data, is_of_corners))
+    return;
   give_memory_back_of(file.points, std::get<SpacePoints>(file.points_in).heights, file.weights,
                       file.tetrahedra.corners);
 }

@@ -183,6 +183,7 @@ void add_matrices(NpzWriter& npz, const DecMatrices& matrices, const Complex& c)
   }
   for (const auto& [name, is, values] : matrices.stars) npz.add(name, values);
   npz.add(matrices.transmissibility.name, matrices.transmissibility.values);
+  if (!c.half_transmissibility.empty()) npz.add("half_transmissibility", c.half_transmissibility.raw());
   if (!c.coefficient.empty()) {
     npz.add("coefficient", c.coefficient.raw());
     npz.add("capacity", c.capacity.raw());

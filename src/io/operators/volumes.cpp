@@ -43,10 +43,24 @@ FiniteVolumes volumes_of(const TetDecJob& job) {
     result.cells.push_back(
         {v.index, mesh.position(v), complex.star0[v], static_cast<std::size_t>(std::max(region, 0))});
   }
-  for (const tets::DecEdge& edge : complex.edges) {
+  const bool has_tensor = !complex.half_transmissibility.empty();
+  for (std::size_t e = 0; e < complex.edges.size(); ++e) {
+    const tets::DecEdge& edge = complex.edges[EdgeId(e)];
     if (edge.dual_area == 0) continue;
-    result.connections.push_back({edge.from.index, edge.to.index, edge.crossing, edge.length - edge.crossing,
-                                  edge.dual_area, false, edge.midpoint});
+    FiniteVolumes::Connection c = {edge.from.index,
+                                   edge.to.index,
+                                   edge.crossing,
+                                   edge.length - edge.crossing,
+                                   edge.dual_area,
+                                   false,
+                                   edge.midpoint};
+    if (has_tensor) {  // distances of the file's space, and the area with which a permeability of 1 gives the flux
+      const double distance = length(mesh.position(edge.to) - mesh.position(edge.from));
+      c.first_distance *= distance / edge.length;
+      c.second_distance *= distance / edge.length;
+      c.area = complex.star1[EdgeId(e)] * distance;
+    }
+    result.connections.push_back(c);
   }
   return result;
 }

@@ -136,6 +136,12 @@ Rules rules_of_tetrahedra(const OptimizeOptions& o) {
   const bool for_scheme = o.scheme == Scheme::vertex || o.scheme == Scheme::cell;
   const bool may_insert = o.unknowns == Unknowns::positions_and_weights && o.flips != Flips::none;
   return {
+      {o.tensor || !o.triangle_tensors.empty(),
+       "tensors of triangles are given for tetrahedra. Next: give `tetrahedra_tensors`", kTetrahedra},
+      {!o.tetrahedra_tensors.empty(),
+       "tensors of tetrahedra are given for triangles. Next: give `tensor` or "
+       "`triangle_tensors`",
+       CellKinds::triangles},
       {!is_hot && o.star != Star::one, "`star` needs `energy=F` for tetrahedra. Next: add it", kTetrahedra},
       {is_hot && for_scheme,
        "`energy=F` and the target vertex or cell lower different things. Next: leave one of them out", kTetrahedra},

@@ -10,11 +10,6 @@
 
 namespace temper {
 
-Constraints constraints_of(Criterion criterion) {
-  if (criterion == Criterion::well_centered) return Constraints::well_centered;
-  return criterion == Criterion::coefficients ? Constraints::coefficients : Constraints::distances;
-}
-
 bool may_be_removed(const Mesh& mesh, VertexId v, bool is_own) {
   if (mesh.is_isolated(v) || mesh.is_fixed(v)) return false;
   return is_own || lines_at(mesh, v).empty();

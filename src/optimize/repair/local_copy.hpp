@@ -15,9 +15,6 @@
 
 namespace temper {
 
-/// Returns the constraints on weights that a criterion is.
-[[nodiscard]] Constraints constraints_of(Criterion criterion);
-
 /// Says whether v is neither fixed nor a vertex of the input on a line. plan_removal says whether it can be removed.
 /// `is_own`: the run itself has put it on its line.
 [[nodiscard]] bool may_be_removed(const Mesh& mesh, VertexId v, bool is_own);

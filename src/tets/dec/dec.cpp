@@ -14,6 +14,7 @@
 #include "dec/coefficient.hpp"
 #include "temper/tets/operators.hpp"
 #include "tets/dec/accurate.hpp"
+#include "tets/dec/factors.hpp"
 #include "tets/mesh/tables.hpp"
 
 namespace temper::tets {
@@ -242,20 +243,28 @@ Expected<DecComplex> with_coefficient(const TetMesh& mesh, DecComplex complex, s
   if (auto error = check_coefficient(coefficient, mesh.n_tetrahedra(), "tetrahedra", tetrahedron)) return *error;
   complex.coefficient = IdVector<TetId, double>(coefficient.size());
   std::copy(coefficient.begin(), coefficient.end(), complex.coefficient.begin());
+  WithFactors made = with_factors(mesh, complex, complex.coefficient);
+  complex.star1 = std::move(made.star1);
+  complex.capacity = std::move(made.star0);
+  complex.transmissibility = std::move(made.transmissibility);
+  return complex;
+}
+
+WithFactors with_factors(const TetMesh& mesh, const DecComplex& complex, const IdVector<TetId, double>& factors) {
+  WithFactors made;
   IdVector<FaceId, double> ratios;
   ratios.reserve(complex.faces.size());
-  for (std::size_t i = 0; i < complex.faces.size(); ++i) {
-    const DecFace& face = complex.faces[FaceId(i)];
-    const double behind = complex.coefficient[face.behind.valid() ? face.behind : face.ahead];
-    const double ahead = complex.coefficient[face.ahead.valid() ? face.ahead : face.behind];
+  made.transmissibility.reserve(complex.faces.size());
+  for (const DecFace& face : complex.faces) {
+    const double behind = factors[face.behind.valid() ? face.behind : face.ahead];
+    const double ahead = factors[face.ahead.valid() ? face.ahead : face.behind];
     const DualEdge dual = {face.dual_length, face.behind_height, face.ahead_height};
     ratios.push_back(dual.combined(behind, ahead) / face.area);
     const double resistance = dual.combined(1 / behind, 1 / ahead);
-    complex.transmissibility[FaceId(i)] =
-        resistance == 0 ? std::numeric_limits<double>::infinity() : face.area / resistance;
+    made.transmissibility.push_back(resistance == 0 ? std::numeric_limits<double>::infinity() : face.area / resistance);
   }
-  add_stars(mesh, complex, ratios, complex.star1, complex.capacity);
-  return complex;
+  add_stars(mesh, complex, ratios, made.star1, made.star0);
+  return made;
 }
 
 // --- a summary for the authors of solvers: signs, sums, extremes ----------------------------------------------------

@@ -210,7 +210,8 @@ class Slides {
 
 }  // namespace
 
-IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options) {
+IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options,
+                                        std::span<const VertexId> frozen) {
   IdVector<VertexId, Mobility> all(mesh.n_vertices());
   for (const VertexId v : mesh.vertices()) all[v] = Mobility::free;
   const auto fix = [&](HalffaceId h) {
@@ -240,6 +241,7 @@ IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptio
     if (options.unknowns == temper::Unknowns::weights) all[v] = Mobility::weight;
     if (options.unknowns == temper::Unknowns::positions) all[v].weighs = false;
   }
+  for (const VertexId v : frozen) all[v] = Mobility::none;
   return all;
 }
 

@@ -1,6 +1,8 @@
 // The mobility that its place gives a vertex in all sweeps. It is decided once, since moves keep lines and planes.
 #pragma once
 
+#include <span>
+
 #include "temper/tets/optimize.hpp"
 #include "tets/optimize/newton_step.hpp"
 
@@ -19,6 +21,9 @@ namespace temper::tets {
 ///     | / A | A \ |            | / B | B \ |            | / B ‖ A \ |       unless the tags of the lines differ. One
 ///     o-----o-----o            o-----o-----o            o-----o-----o       without a crease slides in its plane.
 ///
-[[nodiscard]] IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options = {});
+///
+/// Neither the position nor the weight of `frozen` vertices changes.
+[[nodiscard]] IdVector<VertexId, Mobility> mobilities(const TetMesh& mesh, const OptimizeOptions& options = {},
+                                                      std::span<const VertexId> frozen = {});
 
 }  // namespace temper::tets

@@ -2,11 +2,12 @@
 #include "temper/tets/optimize.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "feasibility/demand.hpp"
 #include "optimize/options/settings.hpp"
 #include "optimize/run/changes.hpp"
 #include "temper/detail/convex.hpp"
@@ -17,6 +18,7 @@
 #include "tets/optimize/repair.hpp"
 #include "tets/optimize/repair_run.hpp"
 #include "tets/optimize/sweeper.hpp"
+#include "tets/optimize/tensors.hpp"
 
 namespace temper::tets {
 namespace {
@@ -36,12 +38,12 @@ constexpr double kGainOfMoves = 0.2;
 constexpr int kStepsOfWeights = 40;
 // The most sweeps for a HOT energy.
 constexpr int kMostHotSweeps = 32;
-// The constraints on weights alone for each criterion.
-constexpr std::array kConstraints = {Constraints::well_centered, Constraints::coefficients, Constraints::distances};
 
 class Driver : RepairRun {
  public:
-  Driver(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) : RepairRun(mesh, options, hooks) {}
+  Driver(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks,
+         std::span<const VertexId> frozen = {})
+      : RepairRun(mesh, options, hooks, frozen) {}
 
   OptimizeReport run() {
     if (changes_least()) {
@@ -102,13 +104,14 @@ class Driver : RepairRun {
     return best_bad_ == 0;
   }
   [[nodiscard]] bool has_weights_alone() const {
-    return options_.unknowns != temper::Unknowns::positions && hooks_.solvers.lp && hooks_.solvers.convex;
+    return options_.unknowns != temper::Unknowns::positions && !has_frozen_ && hooks_.solvers.lp &&
+           hooks_.solvers.convex;
   }
   /// To the mesh that changes, which then counts as one more sweep.
   void give_least_weights() {
     WeightOptions wanted;
     wanted.goal = WeightGoal::least;
-    wanted.constraints = kConstraints[static_cast<std::size_t>(criterion_)];
+    wanted.constraints = constraints_of(criterion_);
     wanted.from_input = changes_least();
     if (changes_least()) wanted.whole = 0;  // in small meshes, too, only the surroundings of bad places
     wanted.must_stop = [this] { return is_stopped(0); };
@@ -238,7 +241,10 @@ class Driver : RepairRun {
 Expected<OptimizeReport> optimize(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
   if (auto right = check_together(options, CellKinds::tetrahedra); !right) return right.error();
   if (mesh.n_tetrahedra() == 0) return OptimizeReport{};
-  return Driver(mesh, options, hooks).run();
+  if (options.tetrahedra_tensors.empty()) return Driver(mesh, options, hooks).run();
+  return optimize_in_metrics(mesh, options, hooks, [](TetMesh& there, const PiecesRunOptions& run) {
+    return Driver(there, run.options, run.hooks, run.frozen).run();
+  });
 }
 
 }  // namespace temper::tets

@@ -25,8 +25,9 @@ constexpr int kFewTrials = 2;
 
 }  // namespace
 
-RepairRun::RepairRun(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
-    : Run(mesh, options, hooks), work_(kRepairWork + kRepairWorkPerTet * draft_.mesh.n_tetrahedra()) {}
+RepairRun::RepairRun(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks,
+                     std::span<const VertexId> frozen)
+    : Run(mesh, options, hooks, frozen), work_(kRepairWork + kRepairWorkPerTet * draft_.mesh.n_tetrahedra()) {}
 
 bool RepairRun::changes_connectivity() const {
   return options_.unknowns == temper::Unknowns::positions_and_weights && options_.flips != Flips::none &&

@@ -10,7 +10,8 @@ namespace temper::tets {
 
 class RepairRun : protected Run {
  protected:
-  RepairRun(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks);
+  RepairRun(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks,
+            std::span<const VertexId> frozen);
 
   [[nodiscard]] bool changes_connectivity() const;
   /// Changes the connectivity where sweeps alone are not enough: first at all bad tetrahedra at once, then, from the

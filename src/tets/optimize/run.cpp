@@ -56,13 +56,14 @@ std::string smaller_angle_note(double before, double after) {
 
 }  // namespace
 
-Run::Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks)
+Run::Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks, std::span<const VertexId> frozen)
     : RunOf(options, hooks),
       result_(mesh),
+      has_frozen_(!frozen.empty()),
       errors_({model_of(mesh, options, hooks), {}, options.scheme == Scheme::vertex}),
       criterion_(lowers_hot(options) ? Criterion::well_centered : criterion_of(options.scheme)),
       hot_(kHotEnergies[static_cast<std::size_t>(options.star)]),
-      draft_(mesh, mobilities(mesh, options)),
+      draft_(mesh, mobilities(mesh, options, frozen)),
       cosine_before_(largest_dihedral_cosine(mesh, hooks.executor)),
       most_cosine_(limit_of_angles()) {
   best_.kept.emplace(std::move(mesh), draft_.mobility);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "optimize/run/run_of.hpp"
@@ -20,7 +21,8 @@ class Run : protected RunOf<OptimizeHooks, OptimizeReport> {
  protected:
   static constexpr double kLastGamma = 0.003;
 
-  Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks);
+  /// `frozen`: vertices that keep their position and weight.
+  Run(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks, std::span<const VertexId> frozen);
 
   [[nodiscard]] bool changes_least() const { return options_.change == Change::least; }
   /// A run without a scheme lowers errors if there is a model of them: offsets alone cost as much as all sweeps.
@@ -73,6 +75,7 @@ class Run : protected RunOf<OptimizeHooks, OptimizeReport> {
   double objective_before_ = 0;
 
  protected:
+  const bool has_frozen_;  ///< Weights of some vertices must not change
   AccuracyErrors errors_;  ///< The model is null for large meshes, and where few places change
   const Criterion criterion_;
   const HotEnergy hot_;

@@ -28,6 +28,7 @@ constexpr double kLeastM = 0x1p-600;
 constexpr std::array<int, 6> kDegrees = {4, 2, 6, 6, 5, 4};
 
 bool counts(Constraints constraints, Kind kind) {
+  if (kind == Kind::equal_crossing) return constraints != Constraints::heights_only;
   switch (constraints) {
     case Constraints::well_centered:
       return kind == Kind::height_over_face;
@@ -162,18 +163,52 @@ class Surface {
   std::map<std::array<VertexId, 2>, std::vector<VertexId>> thirds_;  ///< the third corners of the faces at each edge
 };
 
+/// The edges of interface faces.
+class SeamEdges {
+ public:
+  SeamEdges() = default;
+  explicit SeamEdges(const MetricMesh& pieces) {
+    for (const SeamFace& seam : seams_of(pieces)) {
+      const auto [one, other] = corners_of(pieces, seam);
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (const std::size_t j : {(i + 1) % 3, (i + 2) % 3}) {
+          same_.insert({one[i], one[j], other[i], other[j]});
+          same_.insert({other[i], other[j], one[i], one[j]});
+          tetrahedra_.try_emplace({one[i], one[j]}, pieces.mesh.corners(TetMesh::tetrahedron(seam.one)));
+          tetrahedra_.try_emplace({other[i], other[j]}, pieces.mesh.corners(TetMesh::tetrahedron(seam.other)));
+        }
+      }
+    }
+  }
+  /// Says whether c is the equation of one of them.
+  [[nodiscard]] bool has(const WeightConstraint& c) const {
+    return same_.count({c.p, c.q, c.r, c.s}) > 0 && !c.t.valid();
+  }
+  /// The corners of a tetrahedron at such an edge; none if ab is not one.
+  [[nodiscard]] std::span<const VertexId> corners_at(VertexId a, VertexId b) const {
+    const auto found = tetrahedra_.find({a, b});
+    return found == tetrahedra_.end() ? std::span<const VertexId>() : found->second;
+  }
+
+ private:
+  std::set<std::array<VertexId, 4>> same_;  ///< p, q, r, s: rs is pq on the other side
+  std::map<std::array<VertexId, 2>, std::array<VertexId, 4>> tetrahedra_;
+};
+
 /// Says whether the terms are constraints of the mesh.
-bool are_of(const TetMesh& mesh, const Certificate& certificate, const Scale& scale) {
+bool are_of(const TetMesh& mesh, const SeamEdges& seams, const Certificate& certificate, const Scale& scale) {
   const Parts parts(mesh, certificate);
   const auto is_one = [&](const auto& term) {
     const WeightConstraint& c = term.constraint;
-    return counts(certificate.constraints, c.kind) && (c.kind == Kind::dual || is_of(parts, c));
+    return counts(certificate.constraints, c.kind) &&
+           (c.kind == Kind::equal_crossing ? seams.has(c) : c.kind == Kind::dual || is_of(parts, c));
   };
   if (!std::all_of(certificate.terms.begin(), certificate.terms.end(), is_one)) return false;
   if (!assumes_reach(certificate.constraints) || certificate.constraints == Constraints::regular) return true;
   const Surface surface(mesh, scale);
-  return std::all_of(certificate.terms.begin(), certificate.terms.end(),
-                     [&](const auto& term) { return surface.has(term.constraint); });
+  return std::all_of(certificate.terms.begin(), certificate.terms.end(), [&](const auto& term) {
+    return term.constraint.kind == Kind::equal_crossing || surface.has(term.constraint);
+  });
 }
 
 /// The terms of the sum.
@@ -181,12 +216,13 @@ class TetTerms : public WeightDifferences {
  public:
   static constexpr Kind kInnerDual = Kind::dual_of_face;
 
-  TetTerms(const TetMesh& mesh, const Scale& scale, Constraints constraints)
-      : mesh_(mesh), scale_(scale), constraints_(constraints) {}
+  TetTerms(const TetMesh& mesh, const SeamEdges& seams, const Scale& scale, Constraints constraints)
+      : mesh_(mesh), seams_(seams), scale_(scale), constraints_(constraints) {}
 
   [[nodiscard]] Polynomial polynomial_of(const WeightConstraint& c, double margin) const {
     const Vector3 q = from_to(c.p, c.q);
     if (c.kind == Kind::crossing) return polynomial_of_crossing(q, margin);
+    if (c.kind == Kind::equal_crossing) return polynomial_of_equal_crossing(q, from_to(c.r, c.s));
     const Vector3 r = from_to(c.p, c.r);
     Polynomial n = c.kind == Kind::height         ? polynomial_of_height(q, r, from_to(c.q, c.r))
                    : c.kind == Kind::dual_of_face ? dual_of_face(q, r, from_to(c.p, c.s), from_to(c.p, c.t))
@@ -201,7 +237,9 @@ class TetTerms : public WeightDifferences {
     Number most = squared_distance(a, b);
     if (assumes_reach(constraints_)) return Number(kWeightReach) * most;
     if (constraints_ == Constraints::completely_well_centered) return most;
+    if (others.empty()) others = seams_.corners_at(a, b);  // an equation names the edge alone
     for (const VertexId v : others) {
+      if (v == a || v == b) continue;
       Number across = abs(squared_distance(a, v) - squared_distance(b, v));
       if ((across - most).sign() == Sign::positive) most = std::move(across);
     }
@@ -244,18 +282,27 @@ class TetTerms : public WeightDifferences {
   }
 
   const TetMesh& mesh_;
+  const SeamEdges& seams_;
   const Scale& scale_;
   Constraints constraints_;
 };
 
-}  // namespace
-
-CertificateCheck check_certificate(const TetMesh& mesh, const Certificate& certificate) {
+CertificateCheck check_with(const TetMesh& mesh, const SeamEdges& seams, const Certificate& certificate) {
   if (!has_good_multipliers(certificate)) return CertificateCheck::bad_multiplier;
   const auto position = [&](VertexId v) { return v.index < mesh.n_vertices() ? mesh.position(v) : Vec3{}; };
   const Scale scale = scale_of(certificate, kDegrees, kLeastCoordinate, position);
-  if (!are_of(mesh, certificate, scale)) return CertificateCheck::not_of_this_mesh;
-  return check_sum(TetTerms(mesh, scale, certificate.constraints), certificate, scale);
+  if (!are_of(mesh, seams, certificate, scale)) return CertificateCheck::not_of_this_mesh;
+  return check_sum(TetTerms(mesh, seams, scale, certificate.constraints), certificate, scale);
+}
+
+}  // namespace
+
+CertificateCheck check_certificate(const TetMesh& mesh, const Certificate& certificate) {
+  return check_with(mesh, SeamEdges(), certificate);
+}
+
+CertificateCheck check_certificate(const MetricMesh& pieces, const Certificate& certificate) {
+  return check_with(pieces.mesh, SeamEdges(pieces), certificate);
 }
 
 }  // namespace temper::tets

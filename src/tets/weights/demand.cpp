@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "base/sort_unique.hpp"
 #include "temper/tets/weights.hpp"
@@ -32,12 +33,45 @@ TetDemand::TetDemand(const TetMesh& mesh, Constraints constraints)
   }
 }
 
+TetDemand::TetDemand(const MetricMesh& pieces, Constraints constraints) : TetDemand(pieces.mesh, constraints) {
+  if (!pieces.is_cut()) return;
+  pieces_ = &pieces;
+  std::vector<std::array<VertexId, 2>> copies;
+  for (const VertexId v : mesh_.vertices()) {
+    if (pieces.first_copy(v) != v) copies.push_back({pieces.first_copy(v), v});
+  }
+  seams_ = Seams(n_vertices(), copies, equations_of_seams(pieces));
+}
+
+std::vector<WeightConstraint> equations_of_seams(const MetricMesh& pieces) {
+  std::vector<WeightConstraint> equations;
+  for (const SeamFace& seam : seams_of(pieces)) {
+    const auto [one, other] = corners_of(pieces, seam);
+    for (std::size_t k = 0; k < 3; ++k) {
+      using Edge = std::array<VertexId, 2>;
+      const std::size_t next = (k + 1) % 3;
+      Edge here = {one[k], one[next]}, there = {other[k], other[next]};
+      if (here[1] < here[0]) std::swap(here[0], here[1]), std::swap(there[0], there[1]);
+      if (std::ranges::min(there) < here[0]) std::swap(here, there);
+      if (here[1] < here[0]) std::swap(here[0], here[1]), std::swap(there[0], there[1]);
+      equations.push_back({Kind::equal_crossing, here[0], here[1], there[0], there[1]});
+    }
+  }
+  const auto key = [](const WeightConstraint& c) { return std::tie(c.p, c.q, c.r, c.s); };
+  const auto before = [&](const WeightConstraint& a, const WeightConstraint& b) { return key(a) < key(b); };
+  std::sort(equations.begin(), equations.end(), before);
+  equations.erase(std::unique(equations.begin(), equations.end()), equations.end());
+  return equations;
+}
+
 void TetDemand::add_corners(CellId cell, std::vector<VertexId>& corners) const {
   for (const VertexId v : mesh_.corners(TetId(cell.index))) corners.push_back(v);
 }
 
 void TetDemand::add_cells_around(VertexId v, std::vector<CellId>& cells) const {
-  for (const TetId t : star(v)) cells.emplace_back(t.index);
+  seams_.for_each_copy(v, [&](VertexId copy) {
+    for (const TetId t : star(copy)) cells.emplace_back(t.index);
+  });
 }
 
 void TetDemand::add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const {
@@ -125,6 +159,15 @@ void TetDemand::add_surface_rows(std::span<const CellId> cells, bool rim, std::v
   }
 }
 
+std::vector<WeightConstraint> TetDemand::equations_of(std::span<const CellId> cells) const {
+  if (seams_.empty()) return {};
+  return seams_.equations_among(vertices_of(*this, cells));
+}
+
+void TetDemand::settle(VertexWeights& weights) const {
+  seams_.settle(weights, [this](const WeightConstraint& c) { return linear_form(c); });
+}
+
 LinearForm TetDemand::form_over_face(VertexId p, VertexId q, VertexId r, VertexId s) const {
   const Vec3 origin = mesh_.position(p);
   const std::array<Vec3, 3> to = {mesh_.position(q) - origin, mesh_.position(r) - origin, mesh_.position(s) - origin};
@@ -176,6 +219,7 @@ LinearForm TetDemand::linear_form(const WeightConstraint& c) const {
   if (c.kind == Kind::dual) return surface_form(c);
   const Vec3 pq = mesh_.position(c.q) - mesh_.position(c.p);
   if (c.kind == Kind::crossing) return crossing_form(c, pq);
+  if (c.kind == Kind::equal_crossing) return equal_crossing_form(c, pq, mesh_.position(c.s) - mesh_.position(c.r));
   const Vec3 pr = mesh_.position(c.r) - mesh_.position(c.p);
   return height_form(c, pq, pr, mesh_.position(c.r) - mesh_.position(c.q), length(cross(pq, pr)));
 }
@@ -183,6 +227,8 @@ LinearForm TetDemand::linear_form(const WeightConstraint& c) const {
 double TetDemand::scale_of_polynomial(const WeightConstraint& c) const {
   const Vec3 p = mesh_.position(c.p), pq = mesh_.position(c.q) - p;
   if (c.kind == Kind::crossing) return 2 * squared_length(pq);
+  if (c.kind == Kind::equal_crossing)
+    return 2 * squared_length(pq) * squared_length(mesh_.position(c.s) - mesh_.position(c.r));
   const Vec3 n = cross(pq, mesh_.position(c.r) - p);
   const double twice_area = length(n);
   if (c.kind == Kind::height) return 2 * squared_length(pq) * twice_area;
@@ -234,7 +280,7 @@ double TetDemand::reach(VertexId p, VertexId q, std::span<const VertexId> corner
 }
 
 CertificateCheck TetDemand::check(const Certificate& certificate) const {
-  return check_certificate(mesh_, certificate);
+  return pieces_ != nullptr ? check_certificate(*pieces_, certificate) : check_certificate(mesh_, certificate);
 }
 
 }  // namespace temper::tets

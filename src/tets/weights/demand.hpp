@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "feasibility/demand.hpp"
-#include "temper/tets/mesh.hpp"
+#include "feasibility/seams.hpp"
+#include "temper/tets/tensor.hpp"
 #include "tets/weights/surface.hpp"
 
 namespace temper::tets {
@@ -15,6 +16,8 @@ namespace temper::tets {
 class TetDemand final : public Demand {
  public:
   TetDemand(const TetMesh& mesh, Constraints constraints);
+  /// With the equations of interfaces.
+  TetDemand(const MetricMesh& pieces, Constraints constraints);
 
   [[nodiscard]] std::size_t n_vertices() const override { return mesh_.n_vertices(); }
   [[nodiscard]] std::size_t n_cells() const override { return mesh_.n_tetrahedra(); }
@@ -24,6 +27,8 @@ class TetDemand final : public Demand {
   void add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const override;
   [[nodiscard]] std::vector<WeightEdge> edges_of(std::span<const CellId> cells) const override;
   [[nodiscard]] std::vector<WeightConstraint> constraints_of(std::span<const CellId> cells, bool rim) const override;
+  [[nodiscard]] std::vector<WeightConstraint> equations_of(std::span<const CellId> cells) const override;
+  void settle(VertexWeights& weights) const override;
   [[nodiscard]] LinearForm linear_form(const WeightConstraint& constraint) const override;
   [[nodiscard]] double scale_of_polynomial(const WeightConstraint& constraint) const override;
   [[nodiscard]] bool is_kept(CellId cell, const VertexWeights& weights) const override;
@@ -50,6 +55,11 @@ class TetDemand final : public Demand {
   SurfaceRows surface_;                    ///< of coefficients
   std::vector<std::uint32_t> star_start_;  ///< of the tetrahedra around each vertex
   std::vector<TetId> star_;
+  const MetricMesh* pieces_ = nullptr;  ///< none: there are no interfaces
+  Seams seams_;
 };
+
+/// The equations of the edges of interfaces, each once: pq is the copy of rs with lower numbers.
+[[nodiscard]] std::vector<WeightConstraint> equations_of_seams(const MetricMesh& pieces);
 
 }  // namespace temper::tets

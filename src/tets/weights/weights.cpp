@@ -1,7 +1,10 @@
 // The public functions of temper/tets/weights.hpp.
 #include "temper/tets/weights.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "tets/weights/demand.hpp"
 
@@ -37,8 +40,9 @@ double weight_margin(const TetMesh& mesh, Constraints constraints) {
   return least_margin(demand, demand.weights());
 }
 
-Expected<WeightReport> find_weights(const TetMesh& mesh, LpSolver& solver, const WeightOptions& options,
-                                    ConvexSolver* convex) {
+namespace {
+
+std::optional<InputError> expect_request(const WeightOptions& options, const ConvexSolver* convex) {
   if (options.constraints == Constraints::heights_only) {
     return InputError{
         ErrorCode::invalid_option, "",
@@ -47,8 +51,49 @@ Expected<WeightReport> find_weights(const TetMesh& mesh, LpSolver& solver, const
   }
   if (!options.edges.empty())
     return InputError{ErrorCode::invalid_option, "", "edges: they are for triangles; regular is about all faces"};
-  if (auto error = expect_goal(options, convex)) return *std::move(error);
+  return expect_goal(options, convex);
+}
+
+}  // namespace
+
+Expected<WeightReport> find_weights(const TetMesh& mesh, LpSolver& solver, const WeightOptions& options,
+                                    ConvexSolver* convex) {
+  if (auto error = expect_request(options, convex)) return *std::move(error);
   return temper::find_weights(TetDemand(mesh, options.constraints), solver, options, convex);
+}
+
+Expected<WeightReport> find_weights(const MetricMesh& pieces, LpSolver& solver, const WeightOptions& options,
+                                    ConvexSolver* convex) {
+  if (auto error = expect_request(options, convex)) return *std::move(error);
+  if (auto error = expect_goal_across_interfaces(options, pieces.is_cut())) return *std::move(error);
+  return temper::find_weights(TetDemand(pieces, options.constraints), solver, options, convex);
+}
+
+double largest_gap_of_edges(const MetricMesh& pieces) {
+  const TetDemand demand(pieces, Constraints::well_centered);
+  const auto weight = [&pieces](VertexId v) { return pieces.mesh.weight(v); };
+  double gap = 0;
+  for (const WeightConstraint& c : equations_of_seams(pieces))
+    gap = std::max(gap, std::abs(value_of(demand.linear_form(c), weight)));
+  return gap;
+}
+
+double largest_gap(const MetricMesh& pieces) {
+  double gap = 0;
+  for (const SeamFace& seam : seams_of(pieces)) {
+    const auto [one, other] = corners_of(pieces, seam);
+    const auto center = [&](const std::array<VertexId, 3>& face, HalffaceId h) {
+      const TetMesh& mesh = pieces.mesh;
+      const Vec3 there = orthocenter(mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2]));
+      return pieces.metric(TetMesh::tetrahedron(h)).from_metric(there);
+    };
+    const Metric& metric = pieces.metric(TetMesh::tetrahedron(seam.one));
+    std::array<Vec3, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = metric.from_metric(pieces.mesh.position(one[k]));
+    const double longest = std::max({length(at[1] - at[0]), length(at[2] - at[1]), length(at[0] - at[2])});
+    gap = std::max(gap, length(center(one, seam.one) - center(other, seam.other)) / longest);
+  }
+  return gap;
 }
 
 }  // namespace temper::tets

@@ -355,7 +355,7 @@ TEST_F(Check, RequirementsOnTetrahedraHaveTheirOwnKeys) {
 TEST_F(Check, OptionsForTrianglesAloneAreRefusedForTetrahedraByName) {
   make_tetrahedra();
   const std::vector<std::vector<std::string>> refused = {
-      {"--flat"}, {"--gamma", "1"}, {"--h0", "1"}, {"--projection", "sphere"}, {"--tensor", "1,0,1"}};
+      {"--flat"}, {"--gamma", "1"}, {"--h0", "1"}, {"--projection", "sphere"}};
   for (const auto& option : refused) {
     std::vector<std::string> all = {"check", "two.mesh"};
     all.insert(all.end(), option.begin(), option.end());

@@ -78,7 +78,7 @@ TEST_F(Dec, TetrahedraHaveTheSameVerb) {
   expect_failure({"operators", "a.mesh", "-o", "b", "--coefficient", "1=2"}, 2, "there is no value for region 2");
   expect_failure({"operators", "a.mesh", "-o", "b", "--coefficient", "k"}, 2, "no data 'k' of tetrahedra");
   expect_failure({"operators", "a.mesh", "-o", "b", "--tensor", "2,0,1"}, 2,
-                 "a.mesh has tetrahedra, and --tensor is for triangles alone");
+                 "a.mesh: --tensor: tetrahedra need 6 numbers KXX,KXY,KXZ,KYY,KYZ,KZZ, found 3");
   expect_failure({"operators", "a.mesh", "-o", "b", "--pinch-out", "1"}, 2, "--pinch-out is for triangles alone");
 }
 
