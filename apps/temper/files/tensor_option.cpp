@@ -210,7 +210,7 @@ void warn_of_crossings(const InputOf<Subject>& input, const typename Subject::Pi
       input.path, apart);
   print_warnings(std::array{
       where + (can_keep ? ". Next: temper optimize or temper weights, with --tensor"
-                        : ": within the face they are no multiples of each other, and no weights change that")});
+                        : ": the metrics of the tensors differ within its faces, and no weights change that")});
 }
 
 }  // namespace
