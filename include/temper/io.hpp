@@ -431,6 +431,8 @@ DataReport update(MeshFile& file, const LoadedTetMesh& loaded, const tets::TetMe
 [[nodiscard]] std::vector<double> corner_weights_of(const MeshFile& file, const LoadedMesh& loaded);
 /// The same of tetrahedra, four each.
 [[nodiscard]] std::vector<double> corner_weights_of(const MeshFile& file, const LoadedTetMesh& loaded);
+/// Says whether a file has such cell data.
+[[nodiscard]] bool has_corner_weights(const MeshFile& file);
 /// Sets these cell data of a file after update(). Empty: the file has none any more.
 void set_corner_weights(MeshFile& file, const std::vector<double>& weights);
 

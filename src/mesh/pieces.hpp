@@ -19,6 +19,11 @@ namespace temper {
   return {names.triangle_where(t.index), names.triangle(t.index)};
 }
 
+template <class K>
+[[nodiscard]] bool is_finite(const K& k) {
+  return std::ranges::all_of(k.components(), [](double c) { return std::isfinite(c); });
+}
+
 /// The components of √(det K) K⁻¹, which are the same for multiples of K, as integers in units of 10⁻¹⁰ of their norm.
 template <class K>
 [[nodiscard]] std::vector<std::int64_t> plane_of(const K& k) {
@@ -40,7 +45,8 @@ Expected<MetricsOf<K, CellId, Names>> MetricsOf<K, CellId, Names>::of(std::span<
   for (std::size_t t = 0; t < tensors.size(); ++t) {
     const K& k = tensors[t];
     const auto next = static_cast<std::uint32_t>(metrics.distinct_.size());
-    const auto [at, is_new] = numbers.try_emplace(k.components(), next);
+    // Numbers that are not finite have no order.
+    const auto [at, is_new] = is_finite(k) ? numbers.try_emplace(k.components(), next) : std::pair(numbers.end(), true);
     if (is_new) {
       auto metric = MetricOf<K>::of(k);
       if (!metric) {

@@ -23,11 +23,6 @@ InputError wrong_tensor(const K& k, const std::string& expected) {
   return {ErrorCode::invalid_option, "", "tensor: expected " + expected + ", found " + shown};
 }
 
-template <class K>
-bool is_finite(const K& k) {
-  return std::ranges::all_of(k.components(), [](double c) { return std::isfinite(c); });
-}
-
 using Matrix = std::array<std::array<double, 3>, 3>;
 
 /// A rotation in the plane of the axes p and q that makes the entry pq of a symmetric matrix zero (Jacobi). The columns

@@ -27,7 +27,9 @@ constexpr double kRoomAtInterfaces = 1.3;
 // Linear programs of larger meshes are about the neighborhoods of bad triangles alone.
 constexpr std::size_t kWhole = 500;
 // If more triangles are bad, programs take long and help little: vertices have to move.
-constexpr std::size_t kMostBad = 500;
+constexpr std::size_t kMostBadForPrograms = 500;
+// Crossings of an interface edge that differ by less are one, up to the rounding of coordinates of maps.
+constexpr double kClosed = 1e-7;
 
 /// Refuses options that only a mesh in its own plane can have.
 std::optional<InputError> check_metric(const OptimizeOptions& options, const OptimizeHooks& hooks) {
@@ -60,7 +62,7 @@ class PiecesRun {
     options_.tensor.reset();
     options_.triangle_tensors.clear();
     options_.corner_weights.clear();
-    options_.guard.depth.clear();  // waves do not know that plane
+    options_.guard.depth.clear();                                            // waves do not know that plane
     if (!hooks_.started) hooks_.started = std::chrono::steady_clock::now();  // the limit is of all runs together
     if (hooks.best_so_far) listen(hooks.best_so_far);
   }
@@ -78,6 +80,7 @@ class PiecesRun {
       report = joined(*std::move(report), *std::move(next));
     }
     if (report && goes_on(*report)) reweigh(*report);
+    if (report) keep_better(*report);
     return report;
   }
 
@@ -149,14 +152,34 @@ class PiecesRun {
 
   [[nodiscard]] static bool hides_vertices(Mesh mesh) { return !restore_regularity(mesh).hidden.empty(); }
 
-  /// Finds weights that violate the criterion least and keep the equations of interfaces. Takes them if fewer triangles
-  /// are bad.
+  /// Cells at violations of the criterion, then triangles that are not well-centered.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> faults_of(const Mesh& mesh) const {
+    return {n_bad(mesh), bad_triangles(mesh).size()};
+  }
+
+  /// Returns the input if it has fewer faults, and its weights keep the equations of interfaces.
+  void keep_better(OptimizeReport& report) {
+    if (largest_gap(first_) > kClosed || faults_of(first_.mesh) >= faults_of(now_.mesh)) return;
+    now_ = first_;
+    vertices_ = {};
+    report.vertices.clear();
+    report.bad_after = report.bad_before;
+    report.notes.push_back("the input is returned: with its weights for each region it has fewer bad triangles");
+  }
+
+  /// Finds weights that keep the equations of interfaces: those that make all triangles well-centered, or those that
+  /// violate the criterion least. Takes them if fewer triangles are bad.
   void reweigh(OptimizeReport& report) {
-    const std::size_t before = n_bad(now_.mesh);
-    if (!hooks_.solvers.lp || before == 0 || before > kMostBad) return;
+    reweigh(report, WeightGoal::change, Constraints::well_centered);
+    reweigh(report, WeightGoal::elastic, constraints_of(criterion_of(options_.scheme)));
+  }
+  void reweigh(OptimizeReport& report, WeightGoal goal, Constraints constraints) {
+    const auto before = faults_of(now_.mesh);
+    const bool is_good = goal == WeightGoal::elastic ? before.first == 0 : before.second == 0;
+    if (!hooks_.solvers.lp || is_good || before.second > kMostBadForPrograms) return;
     WeightOptions wanted;
-    wanted.goal = WeightGoal::elastic;
-    wanted.constraints = constraints_of(criterion_of(options_.scheme));
+    wanted.goal = goal;
+    wanted.constraints = constraints;
     wanted.from_input = true;
     wanted.whole = kWhole;
     wanted.must_stop = [this] { return is_late(); };
@@ -164,7 +187,8 @@ class PiecesRun {
     if (!found) return;
     Mesh weighted = now_.mesh;
     for (const VertexId v : weighted.vertices()) weighted.set_weight(v, found->weights[v]);
-    if (n_bad(weighted) >= before || !restore_regularity(weighted).hidden.empty() || n_bad(weighted) >= before) return;
+    if (faults_of(weighted) >= before || !restore_regularity(weighted).hidden.empty() || faults_of(weighted) >= before)
+      return;
     now_.mesh = std::move(weighted);
     report.bad_after = bad_triangles(now_.mesh).size();
   }

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kDegrees = 57.29577951308232;
 // Largest distance between the crossings of an interface edge from its two sides, over its length: rounding of a file.
-constexpr double kSameCrossing = 1e-9;
+constexpr double kSameCrossing = 1e-7;
 
 /// The numbers of a list; none if a word is no number.
 std::optional<std::vector<double>> numbers_of(const std::vector<std::string>& words) {
@@ -239,7 +239,10 @@ void add_tensor(Command& command, TensorOption& tensor, const std::string& what,
                          ? ""
                          : "For tetrahedra a tensor is KXX,KXY,KXZ,KYY,KYZ,KZZ, and axes are k11,k22,k33. ") +
                     "See docs/howto/anisotropic.md.";
-  option.take = [&tensor](const std::string& text) { take(tensor, text); };
+  option.take = [&tensor](const std::string& text) {
+    take(tensor, text);
+    tensor.spelled += " --tensor " + text;
+  };
   option.values = Values::repeated;
   option.cells = cells;
   command.add(std::move(option));
@@ -279,7 +282,17 @@ typename Subject::Pieces in_metric(const typename Subject::Mesh& mesh,
 }
 
 template <class Subject>
+void warn_without(const TensorOption& tensor, const InputOf<Subject>& input) {
+  if (tensor.given() || !io::has_corner_weights(input.file)) return;
+  print_warnings(std::array{fmt::format(
+      "{}: has weights for each region, which are right with diffusion tensors alone. Next: give the tensors, too, by "
+      "--tensor",
+      input.path)});
+}
+
+template <class Subject>
 std::optional<typename Subject::Pieces> metric_of(const InputOf<Subject>& input, const TensorOption& tensor) {
+  warn_without(tensor, input);
   if (!tensor.given()) return {};
   return in_metric(input.mesh(), tensors_of(tensor, input), io::corner_weights_of(input.file, input.loaded), input);
 }
@@ -300,6 +313,7 @@ std::optional<MetricViewOf<Subject>> take_to_metric(InputOf<Subject>& input, con
   template S::Pieces in_metric(const S::Mesh&, const std::vector<S::Tensor>&, const std::vector<double>&, \
                                const InputOf<S>&);                                                        \
   template void name_copies(InputOf<S>&, const S::Pieces&);                                               \
+  template void warn_without(const TensorOption&, const InputOf<S>&);                                     \
   template std::optional<S::Pieces> metric_of(const InputOf<S>&, const TensorOption&);                    \
   template std::optional<MetricViewOf<S>> take_to_metric(InputOf<S>&, const TensorOption&);
 TEMPER_EACH_SUBJECT(TEMPER_MAKE)

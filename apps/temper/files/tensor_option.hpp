@@ -18,6 +18,7 @@ struct TensorOption {
   std::vector<double> one;                                              ///< for all; empty: there is none
   std::vector<std::pair<std::string, std::vector<double>>> of_regions;  ///< by number or name
   std::vector<std::string> data;  ///< names: of kxx, kxy, …; of k11, k22, … and angles; or of one array
+  std::string spelled;            ///< the options as given, " --tensor 1,0,4", for commands in messages
 
   [[nodiscard]] bool given() const { return !one.empty() || may_differ(); }
   /// Says whether cells may have different tensors.
@@ -46,6 +47,10 @@ template <class Subject>
 /// Lets names and points of the input count the copies of vertices of interfaces, too.
 template <class Subject>
 void name_copies(InputOf<Subject>& input, const typename Subject::Pieces& pieces);
+
+/// Warns if the file has weights for each region, and no tensors were given.
+template <class Subject>
+void warn_without(const TensorOption& tensor, const InputOf<Subject>& input);
 
 /// The mesh of the input in the planes of its metrics, if there are tensors.
 template <class Subject>

@@ -242,7 +242,7 @@ class Checks {
     std::string text = fmt::format("{}: {}\n{}{}{}\n", input.path, mesh_size(measured), halves_text(input.mesh()),
                                    brief_text(measured), target_verdict(measured, input, criterion_));
     if (violations(measured, criterion_) == 0 || input.path == kStandardInput) return text;
-    const std::string target = command_.was_given("--for") ? " --for " + s_.target : "";
+    const std::string target = (command_.was_given("--for") ? " --for " + s_.target : "") + s_.tensor.spelled;
     return text + fmt::format("Next: {} -o OUT{}, or {}{}\n", command_line("optimize", input.path, s_.projection),
                               target, command_line("explain", input.path, s_.projection), target);
   }

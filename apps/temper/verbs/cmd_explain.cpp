@@ -127,7 +127,8 @@ void print_explanation(const ExplainSettings& s, const AnyInput& input, const st
     if (s.json) return print_data(explanation_json(explanation, input.points));
     print(explanation_text(explanation, input, text_style()));
     if (explanation.violations > 0 && !io::is_stream(input.path))
-      print(fmt::format("Next: {} -o OUT --for {}\n", command_line("optimize", input.path, s.projection), s.target));
+      print(fmt::format("Next: {} -o OUT --for {}{}\n", command_line("optimize", input.path, s.projection), s.target,
+                        s.tensor.spelled));
     return;
   }
   const auto explanation = explained(s, input, view);

@@ -60,6 +60,7 @@ void prepare(const Command& /*command*/, const OptimizeSettings& s, const TetInp
 
 void improve(const OptimizeSettings& s, TetInput& input, const RunFiles& files, RunResults<Tetrahedra>& results) {
   const tets::QualityOptions measuring = {tets::QualityOptions().worst, files.threads};
+  warn_without(s.tensor, input);
   std::vector<Tensor3> tensors = tensors_of(s.tensor, input);
   const OptimizeOptions options = options_of(s, input, tensors);
   const Seen before(input.mesh(), tensors, options.corner_weights, input);

@@ -139,6 +139,7 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
   const auto look_at = [&](const std::vector<Tensor>& tensors, const std::vector<double>& corner_weights) {
     if (s.tensor.given()) seen = &there.emplace(in_metric(mesh, tensors, corner_weights, input)).mesh;
   };
+  warn_without(s.tensor, input);
   std::vector<Tensor> tensors = tensors_of(s.tensor, input);
   look_at(tensors, io::corner_weights_of(input.file, input.loaded));
   if (!s.files.picture.empty() || !s.files.page.empty()) results.second = *seen;

@@ -205,7 +205,6 @@ void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
 [[nodiscard]] std::string side_file_path(const std::string& path);
 /// PATH.corner_weights.csv, with weights for each vertex and region of formats without cell data
 [[nodiscard]] std::string corner_file_path(const std::string& path);
-[[nodiscard]] bool has_corner_weights(const MeshFile& file);
 void read_corner_file(Document& document);
 void write_corner_file(const WriteJob& job);
 /// Takes the weights from the side file when it exists and the file itself has none.

@@ -68,7 +68,7 @@ class RunInMetrics {
     report.origins.vertices = std::move(whole->vertices);
     report.corner_weights = std::move(whole->corner_weights);
     report.tetrahedra_tensors = std::move(whole->tensors);
-    report.count_vertices(original_.n_vertices(), report.origins.vertices);
+    count_vertices(report, report.origins.vertices, original_.n_vertices());
     result_ = std::move(whole->mesh);
     return report;
   }

@@ -19,29 +19,30 @@ bool are_flat(Vec3 normal, Vec3 other) {
 }
 
 /// An edge of a face that bounds a region.
-struct Side {
+struct SurfaceSide {
   VertexId p, q;  ///< p < q
   VertexId r;     ///< the third corner of the face
   HalffaceId face;
 };
 
-std::vector<Side> sides_of(const TetMesh& mesh) {
-  std::vector<Side> sides;
+std::vector<SurfaceSide> sides_of(const TetMesh& mesh) {
+  std::vector<SurfaceSide> sides;
   for (const HalffaceId h : mesh.halffaces()) {
     if (!mesh.bounds_region(h) || !mesh.is_face_representative(h)) continue;
     const auto [a, b, c] = mesh.vertices(h);
     for (const auto& [p, q, r] : {std::tuple(a, b, c), {b, c, a}, {c, a, b}})
       sides.push_back({std::min(p, q), std::max(p, q), r, h});
   }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& a, const Side& b) { return std::tie(a.p, a.q, a.face) < std::tie(b.p, b.q, b.face); });
+  std::sort(sides.begin(), sides.end(), [](const SurfaceSide& a, const SurfaceSide& b) {
+    return std::tie(a.p, a.q, a.face) < std::tie(b.p, b.q, b.face);
+  });
   return sides;
 }
 
 }  // namespace
 
 SurfaceRows::SurfaceRows(const TetMesh& mesh) {
-  const std::vector<Side> sides = sides_of(mesh);
+  const std::vector<SurfaceSide> sides = sides_of(mesh);
   for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
     const auto& [p, q, r, face] = sides[first];
     while (last < sides.size() && sides[last].p == p && sides[last].q == q) ++last;

@@ -190,6 +190,13 @@ TEST(Pieces, WrongTensorsAreToldWithTheirTriangle) {
   const auto refused = Metrics::of(tensors);
   ASSERT_FALSE(refused);
   EXPECT_TRUE(refused.error().message.starts_with("triangle 4: tensor: expected a positive definite tensor"));
+  for (double Tensor::*component : {&Tensor::xx, &Tensor::xy, &Tensor::yy}) {
+    tensors.assign(mesh.n_triangles(), Tensor{3, 1, 2});
+    tensors[6].*component = std::numeric_limits<double>::quiet_NaN();
+    const auto nan = Metrics::of(tensors);
+    ASSERT_FALSE(nan);
+    EXPECT_TRUE(nan.error().message.starts_with("triangle 6: tensor: expected finite numbers")) << nan.error().message;
+  }
 }
 
 }  // namespace

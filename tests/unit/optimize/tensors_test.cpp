@@ -137,6 +137,22 @@ TEST(RunsWithTensors, WhoseAxesTurnFromTriangleToTriangleTakeTheMeanOfTheRegion)
   EXPECT_LE(bad_in(wild.pieces.mesh), bad);
 }
 
+TEST(RunsWithTensors, OfAResultMakeNothingWorse) {
+  for (const double ratio : {3.0, 40.0}) {
+    const test::LayersOfRock rock = test::layers_of_rock(3, ratio, 3);
+    const Result first = run_of(rock, {.boundary = BoundaryVertices::split});
+    OptimizeOptions again;
+    again.boundary = BoundaryVertices::split;
+    again.triangle_tensors = first.report.triangle_tensors;
+    again.corner_weights = first.report.corner_weights;
+    Mesh mesh = first.mesh;
+    const auto report = optimize(mesh, again);
+    ASSERT_TRUE(report);
+    const MetricMesh pieces = *mapped(mesh, *Metrics::of(report->triangle_tensors), report->corner_weights);
+    EXPECT_LE(bad_in(pieces.mesh), bad_in(first.pieces.mesh)) << ratio;
+  }
+}
+
 TEST(RunsWithTensors, TellWrongArrays) {
   test::LayersOfRock rock = test::layers_of_rock(2, 4);
   rock.tensors.pop_back();
