@@ -149,7 +149,12 @@ struct Explanation {
 ///     for (const Reason& reason : why->reasons) puts(reason_text(mesh, reason).c_str());
 [[nodiscard]] Expected<Explanation> explain(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options = {});
 
-/// A reason in words, in several sentences with the user's numbers. If `names` is null, numbers count from 0.
+/// A reason in words, with the user's numbers: what is bad and where, and why.
+struct ReasonWords {
+  std::string what, why;
+};
+[[nodiscard]] ReasonWords reason_words(const Mesh& mesh, const Reason& reason, const InputNames* names = nullptr);
+/// Both in one text, in several sentences with the user's numbers. If `names` is null, numbers count from 0.
 [[nodiscard]] std::string reason_text(const Mesh& mesh, const Reason& reason, const InputNames* names = nullptr);
 /// A cure in words, in one sentence.
 [[nodiscard]] std::string cure_text(const Mesh& mesh, const Cure& cure, const InputNames* names = nullptr);

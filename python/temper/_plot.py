@@ -197,7 +197,7 @@ def plot_history(report: Any, *, ax: Any = None) -> Any:
     sweeps = [record.sweep for record in history]
     ax.step(sweeps, [record.bad for record in history], where="post", color=_BAD, label="bad triangles")
     ax.set_xlabel("sweep")
-    ax.set_ylabel("triangles not well-centered", color=_BAD)
+    ax.set_ylabel("bad triangles", color=_BAD)
     ax.set_yscale("symlog", linthresh=1)
     ax.set_ylim(bottom=0)
     energy = ax.twinx()

@@ -45,20 +45,20 @@ class Speaker {
     return list("triangle", "triangles", ids);
   }
 
-  [[nodiscard]] std::string reason(const Reason& r) const {
+  [[nodiscard]] ReasonWords reason(const Reason& r) const {
     switch (r.kind) {
       case ReasonKind::split:
         return must_split(r);
       case ReasonKind::edge:
       case ReasonKind::fan:
       case ReasonKind::patch:
-        return opening(r) + (r.crossing ? crossing(r) : together(r)) + proof(r) + freedom(r);
+        return {opening(r), (r.crossing ? crossing(r) : together(r)) + proof(r) + freedom(r)};
       case ReasonKind::weights:
-        return worst(r) + weights_exist(r);
+        return {worst(r), weights_exist(r)};
       case ReasonKind::undecided:
-        return worst(r) +
-               "No weights were found for its neighborhood, and no proof that there are none: the best margin "
-               "is zero up to rounding.";
+        return {worst(r),
+                "No weights were found for its neighborhood, and no proof that there are none: the best margin "
+                "is zero up to rounding."};
     }
     return {};
   }
@@ -81,27 +81,25 @@ class Speaker {
   }
 
  private:
-  /// "Boundary edge 17-18 must be split: …".
-  [[nodiscard]] std::string must_split(const Reason& r) const {
+  /// "Boundary edge 17-18 must be split, …".
+  [[nodiscard]] ReasonWords must_split(const Reason& r) const {
     const EdgeConflict& c = *r.must_split;
     const VertexId u = mesh_.origin(c.edge), v = mesh_.target(c.edge);
     const Surface surface(mesh_.space());
     const double l = surface.distance(surface.place(mesh_.point(u)), surface.place(mesh_.point(v)));
-    std::string text = edge(u, v);
-    text.front() = text.front() == 'b' ? 'B' : 'E';
-    text += " must be split, whatever is done inside. It is " + rounded(l) +
-            " long, and its dual must cross it less than " + rounded(c.a * l) + " from " + vertex(u) +
-            ", for the sake of " + vertex(c.near_u) + ", and less than " + rounded(c.b * l) + " from " + vertex(v) +
-            ", for the sake of " + vertex(c.near_v) +
-            ": no well-centered mesh keeps the edge and these vertices (decided exactly).";
-    if (r.bad.empty()) return text;
-    text += " Not well-centered there: " + triangles(r.bad) + ".";
-    return text;
+    std::string what = edge(u, v);
+    what.front() = what.front() == 'b' ? 'B' : 'E';
+    what += " must be split, whatever is done inside.";
+    if (!r.bad.empty()) what += " Bad there: " + triangles(r.bad) + ".";
+    return {what, "It is " + rounded(l) + " long, and its dual must cross it less than " + rounded(c.a * l) + " from " +
+                      vertex(u) + ", for the sake of " + vertex(c.near_u) + ", and less than " + rounded(c.b * l) +
+                      " from " + vertex(v) + ", for the sake of " + vertex(c.near_v) +
+                      ": no well-centered mesh keeps the edge and these vertices (decided exactly)."};
   }
 
   /// "Triangles 3, 5 and 8 exclude each other. They lie at the boundary corner of 35.2° at vertex 12, where …"
   [[nodiscard]] std::string opening(const Reason& r) const {
-    std::string text = triangles(r.conflict) + " exclude each other. ";
+    std::string text = triangles(r.conflict) + " exclude each other.";
     text.front() = 'T';
     if (!r.center) return text;
     const FanCenter& c = *r.center;
@@ -111,7 +109,7 @@ class Speaker {
     std::size_t degree = 0;
     for ([[maybe_unused]] const HalfedgeId h : mesh_.star(c.vertex)) ++degree;
     const bool whole = degree == r.conflict.size();
-    text += whole ? "They are all the triangles at " : "They lie at ";
+    text += whole ? " They are all the triangles at " : " They lie at ";
     text +=
         c.on_boundary ? "the boundary corner of " + degrees(c.angle_deg) + " at " + vertex(c.vertex) : vertex(c.vertex);
     if (ratio >= kNotableRatio) {
@@ -119,7 +117,7 @@ class Speaker {
               edge(c.vertex, c.shortest) + " (" + rounded(c.longest_length) + " and " + rounded(c.shortest_length) +
               ")";
     }
-    return text + ". ";
+    return text + ".";
   }
 
   /// "triangle 3 (angle of 138.3° at vertex 10)".
@@ -181,7 +179,7 @@ class Speaker {
   [[nodiscard]] std::string worst(const Reason& r) const {
     const WorstTriangle w = describe(mesh_, r.bad.front(), names_);
     return (r.bad.size() > 1 ? "Worst is triangle " : "Triangle ") + number_of(r.bad.front(), names_) + ": " + w.why +
-           ". ";
+           ".";
   }
 
   [[nodiscard]] static std::string weights_exist(const Reason& r) {
@@ -221,8 +219,13 @@ class Speaker {
 
 }  // namespace
 
-std::string reason_text(const Mesh& mesh, const Reason& reason, const InputNames* names) {
+ReasonWords reason_words(const Mesh& mesh, const Reason& reason, const InputNames* names) {
   return Speaker(mesh, names).reason(reason);
+}
+
+std::string reason_text(const Mesh& mesh, const Reason& reason, const InputNames* names) {
+  const ReasonWords words = reason_words(mesh, reason, names);
+  return words.what + " " + words.why;
 }
 
 std::string cure_text(const Mesh& mesh, const Cure& cure, const InputNames* names) {

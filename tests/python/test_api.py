@@ -45,7 +45,7 @@ ELSEWHERE = {
     "check_proof": "check_certificate checks proofs, too",
     "certificate_to_json": "Certificate.to_json", "certificate_from_json": "Certificate.from_json", "optimality_to_json": "temper weights writes it", "is_too_deep": "from_json checks",
     "merge_points": "read(merge=…)", "find_crack": "temper check warns", "flip_flat_triangles": "temper convert does it",
-    "reason_text": "Reason.text", "cure_text": "Cure.text",
+    "reason_text": "Reason.text", "reason_words": "as reason_text", "cure_text": "Cure.text",
     "make_mesh": "read and from_meshio make the mesh", "make_tet_mesh": "as make_mesh", "expect_triangles": "read takes both kinds", "update": "write does it", "set_points": "from_meshio does it", "release_geometry": "read does it",
     "parse_data_rules": "Mesh.point_data_rules", "check_data_rules": "as parse_data_rules",
     "positions_of_vertices": "Mesh.point_data", "sources_of_tetrahedra": "TetMesh.cell_data", "find_tetrahedron": "as sources_of_tetrahedra", "tetrahedron_near": "as sources_of_tetrahedra", "sources_of_triangles": "Mesh.cell_data", "interpolated": "Mesh.point_data",

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -125,27 +126,84 @@ const ReportTable& table_of(const TetDecRecord*) {
   return table;
 }
 
+namespace {
+
+/// Negative entries of one star.
+struct StarSigns {
+  std::string_view name;
+  std::size_t entries = 0, negative = 0;
+};
+std::vector<StarSigns> signs_of(const DecSummary& s) {
+  return {{"star0", s.vertices, s.negative_star0}, {"star1", s.edges, s.negative_star1 + s.negative_boundary_star1}};
+}
+std::vector<StarSigns> signs_of(const tets::DecSummary& s) {
+  return {{"star0", s.vertices, s.negative_star0},
+          {"star1", s.edges, s.negative_star1},
+          {"star2", s.faces, s.negative_star2 + s.negative_boundary_star2}};
+}
+/// Exact zeros count as zero, also where rounding makes them positive.
+double least(const DecSummary& s) {
+  const double zero = s.zero_star1 > 0 ? 0 : kUnbounded;
+  return std::min({s.min_star0, s.min_star1, zero});
+}
+double least(const tets::DecSummary& s) {
+  const double zero = s.zero_star2 > 0 ? 0 : kUnbounded;
+  return std::min({s.min_star0, s.min_star1, s.min_star2, zero});
+}
+
+/// The target whose solvers need the entries that are negative.
+std::string_view target_for(const DecSummary& /*s*/) { return "vertex"; }
+std::string_view target_for(const tets::DecSummary& s) {
+  return s.negative_star0 + s.negative_star1 > 0 ? "vertex" : "cell";
+}
+
+/// How many coefficients are not positive, and what to do, with `end` between the two; empty if all are positive.
+template <class Record>
+std::string trouble_of(const Record& record, std::string_view end) {
+  std::size_t entries = 0, negative = 0;
+  std::string of_stars;
+  for (const StarSigns& star : signs_of(record.summary)) {
+    entries += star.entries;
+    negative += star.negative;
+    of_stars += fmt::format("{}{} of {}", of_stars.empty() ? "" : ", ", star.negative, star.name);
+  }
+  const double smallest = least(record.summary);
+  if (negative == 0 && smallest > 0) return {};
+  const std::string found = negative == 0 ? fmt::format("the least coefficient is {:.4g}", smallest)
+                                          : fmt::format("{} of {} coefficients {} bad (negative): {}", negative,
+                                                        entries, negative == 1 ? "is" : "are", of_stars);
+  return fmt::format("{0}: {1}{2}Next: temper optimize IN -o OUT --for {3}, or temper explain IN --for {3}",
+                     record.path, found, end, target_for(record.summary));
+}
+
+template <class Record>
+std::string verdict_of(const Record& record) {
+  const std::string trouble = trouble_of(record, "\n");
+  return (trouble.empty() ? record.path + ": all coefficients are positive" : trouble) + "\n\n";
+}
+
+}  // namespace
+
+std::string dec_trouble(const DecRecord& record) { return trouble_of(record, ". "); }
+std::string dec_trouble(const TetDecRecord& record) { return trouble_of(record, ". "); }
+
 std::string dec_text(const DecRecord& record) {
   const std::optional<ColumnCounts> columns = columns_of(record);
-  return labeled_text(view_of(record)) + (columns ? columns_text(*columns) : "") + text_of(record.files);
+  return verdict_of(record) + labeled_text(view_of(record)) + (columns ? columns_text(*columns) : "") +
+         text_of(record.files);
 }
 
 std::string dec_json(const DecRecord& record) { return dump(json_of(record)); }
 
-std::string dec_text(const TetDecRecord& record) { return labeled_text(view_of(record)) + text_of(record.files); }
+std::string dec_text(const TetDecRecord& record) {
+  return verdict_of(record) + labeled_text(view_of(record)) + text_of(record.files);
+}
 
 std::string dec_json(const TetDecRecord& record) { return dump(json_of(record)); }
 
 std::vector<std::string> dec_warnings(const DecRecord& record) {
   const DecSummary& s = record.summary;
   std::vector<std::string> warnings;
-  if (s.not_well_centered > 0) {
-    warnings.push_back(
-        fmt::format("{}: {}: {} interior and {} boundary entries of star1 and {} of star0 "
-                    "are negative. Next: temper optimize makes them positive",
-                    record.path, well_centered<Triangles>(s.not_well_centered, s.triangles), s.negative_star1,
-                    s.negative_boundary_star1, s.negative_star0));
-  }
   const auto edges = [](std::size_t n) { return n == 1 ? "1 interior edge" : fmt::format("{} interior edges", n); };
   if (s.negative_star1 > 0) {
     warnings.push_back(fmt::format("{}: {} not regular: power cells there follow the mesh, not the power diagram",
@@ -162,13 +220,6 @@ std::vector<std::string> dec_warnings(const DecRecord& record) {
 std::vector<std::string> dec_warnings(const TetDecRecord& record) {
   const tets::DecSummary& s = record.summary;
   std::vector<std::string> warnings;
-  if (s.not_well_centered > 0) {
-    warnings.push_back(fmt::format(
-        "{}: {} of {} tetrahedra are not well-centered: {} interior and {} boundary entries of star2, {} of "
-        "star1 and {} of star0 are negative. Next: temper optimize makes them positive",
-        record.path, s.not_well_centered, s.tetrahedra, s.negative_star2, s.negative_boundary_star2, s.negative_star1,
-        s.negative_star0));
-  }
   if (s.zero_star2 > 0) {
     warnings.push_back(
         fmt::format("{}: {} with a dual edge of length zero: star2 is 0 there, and the two-point flux is infinite",

@@ -45,10 +45,10 @@ std::string with_duals(const tets::Quality& q, Criterion criterion, const Text& 
 std::string count_of_duals(std::size_t violations, Criterion criterion) {
   if (criterion == Criterion::coefficients)
     return violations == 0 ? "no edge has a negative coefficient"
-                           : plural(violations, "negative coefficient", "negative coefficients");
-  return violations == 0
-             ? "all distances between centers are positive"
-             : plural(violations, "distance between centers is", "distances between centers are") + " not positive";
+                           : plural(violations, "coefficient is", "coefficients are") + " bad (negative)";
+  return violations == 0 ? "all distances between centers are positive"
+                         : plural(violations, "distance between centers is", "distances between centers are") +
+                               " bad (not positive)";
 }
 
 std::string next_step(const std::string& path, const std::string& projection, Criterion criterion,

@@ -70,18 +70,33 @@ bool has_group(const std::vector<FieldErrors>& fields, FieldGroup group) {
   return false;
 }
 
+std::vector<std::string> cells_of(const OperatorErrors& errors, std::string_view norm, Shown shown,
+                                  const TextStyle& style) {
+  std::vector<std::string> texts;
+  for (const ErrorMeasure& measure : measures_of(norm)) texts.push_back(number_text(measure.of(errors), shown, style));
+  return texts;
+}
+
+std::string title_row(const std::string& title, const TextStyle& style) {
+  const std::string star = style.utf8 ? "★" : "star ";
+  return "\n" + row_text(title, {star + "0", star + "1", star + "2", "Poisson", "flux"});
+}
+
+/// One line per norm: the means of all fields.
+std::string means_table(std::string_view what, const std::vector<FieldErrors>& fields, Shown shown,
+                        const TextStyle& style) {
+  const std::string title = fields.size() == 1 ? fmt::format("{}, {}", what, fields[0].field.name)
+                                               : fmt::format("mean {}, {} fields", what, fields.size());
+  const OperatorErrors mean = mean_of(fields, shown, {});
+  return title_row(title, style) + row_text("L2", cells_of(mean, ".l2", shown, style)) +
+         row_text("maximum", cells_of(mean, ".max", shown, style));
+}
+
 /// One line per field, then means.
 std::string table(const std::string& title, std::string_view norm, const std::vector<FieldErrors>& fields, Shown shown,
                   const TextStyle& style) {
-  const std::string star = style.utf8 ? "★" : "star ";
-  const auto cells = [&](const OperatorErrors& errors) {
-    std::vector<std::string> texts;
-    for (const ErrorMeasure& measure : measures_of(norm)) {
-      texts.push_back(number_text(measure.of(errors), shown, style));
-    }
-    return texts;
-  };
-  std::string text = "\n" + row_text(title, {star + "0", star + "1", star + "2", "Poisson", "flux"});
+  const auto cells = [&](const OperatorErrors& errors) { return cells_of(errors, norm, shown, style); };
+  std::string text = title_row(title, style);
   for (const FieldErrors& row : fields) {
     text += row_text(fmt::format("{} ({})", row.field.name, name(row.field.group)), cells(row.errors));
   }
@@ -95,23 +110,30 @@ std::string table(const std::string& title, std::string_view norm, const std::ve
 
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 
-/// `links`: what leads from one cell to the next, "edges" or "faces".
-std::string matrices_text(const ErrorSystem& p, const ErrorSystem& f, std::string_view links, const TextStyle& style) {
+/// What solvers need of the matrix of their target.
+std::string needs_text(const ErrorSystem& p, const ErrorSystem& f, const TextStyle& style) {
   const auto value = [&](double x) { return number_text(x, Shown::ratios, style); };
   std::string text = "\n" + row_text("matrix", {"Poisson", "flux"});
-  text += row_text("unknowns", {std::to_string(p.unknowns), std::to_string(f.unknowns)});
+  text += row_text("target of its solvers (--for)", {"vertex", "cell"});
   text += row_text("M-matrix", {yes_no(p.m_matrix), yes_no(f.m_matrix)});
-  text += row_text("positive definite", {yes_no(p.definite), yes_no(f.definite)});
-  text += row_text("singular", {yes_no(p.singular), yes_no(f.singular)});
   text += row_text("negative coefficients", {std::to_string(p.negative), std::to_string(f.negative)});
-  text += row_text(fmt::format("{} between merged cells", links), {"-", std::to_string(f.merged)});
-  text += row_text("largest coefficient over median", {value(p.largest_over_median), value(f.largest_over_median)});
   if (p.condition && f.condition) text += row_text("condition, at least", {value(*p.condition), value(*f.condition)});
   return text;
 }
 
+/// The other rows. `links`: what leads from one cell to the next, "edges" or "faces".
+std::string matrices_text(const ErrorSystem& p, const ErrorSystem& f, std::string_view links, const TextStyle& style) {
+  const auto value = [&](double x) { return number_text(x, Shown::ratios, style); };
+  std::string text = row_text("unknowns", {std::to_string(p.unknowns), std::to_string(f.unknowns)});
+  text += row_text("positive definite", {yes_no(p.definite), yes_no(f.definite)});
+  text += row_text("singular", {yes_no(p.singular), yes_no(f.singular)});
+  text += row_text(fmt::format("{} between merged cells", links), {"-", std::to_string(f.merged)});
+  return text +
+         row_text("largest coefficient over median", {value(p.largest_over_median), value(f.largest_over_median)});
+}
+
 std::string levels_text(const ErrorReport& report) {
-  std::string text = "\n" + row_text("refined family", {"triangles", "not w.-c.", "not regular"});
+  std::string text = "\n" + row_text("refined family", {"triangles", "bad", "not regular"});
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     const ErrorLevel& level = report.levels[i];
     text +=
@@ -191,19 +213,22 @@ std::string problem_json(const ProblemRecord& record) {
 }
 
 template <class Subject>
-std::string error_text(const ErrorRecord<Subject>& record, const TextStyle& style) {
+std::string error_text(const ErrorRecord<Subject>& record, ErrorRows rows, const TextStyle& style) {
   const auto& report = record.report;
+  const bool all = rows == ErrorRows::all;
   const auto fields = [&](const char* what, const std::vector<FieldErrors>& of, Shown shown) {
+    if (!all) return means_table(what, of, shown, style);
     return table(fmt::format("{}, L2", what), ".l2", of, shown, style) +
            table(fmt::format("{}, maximum", what), ".max", of, shown, style);
   };
   std::string text =
-      fmt::format("{}: {}, {} not well-centered; {} not regular\n", record.path,
+      fmt::format("{}: {}, {} bad (not well-centered); {} not regular\n", record.path,
                   plural(n_elements(report), Subject::element, Subject::elements), report.not_well_centered,
                   plural(n_irregular_links(report), fmt::format("interior {}", Subject::link),
                          fmt::format("interior {}", Subject::links)));
   text += fields("relative error", report.fields, Shown::errors);
-  text += matrices_text(report.poisson, report.flux, Subject::links, style);
+  text += needs_text(report.poisson, report.flux, style);
+  if (all) text += matrices_text(report.poisson, report.flux, Subject::links, style);
   if (record.against) {
     text += fmt::format("\nover the errors of {}:\n", record.against->path);
     text += fields("ratio", record.against->ratios, Shown::ratios);
@@ -211,7 +236,7 @@ std::string error_text(const ErrorRecord<Subject>& record, const TextStyle& styl
   if constexpr (requires { report.levels; }) {
     if (!report.levels.empty()) text += levels_text(report) + fields("order", report.orders, Shown::orders);
   }
-  return text;
+  return all ? text : text + "\n--details prints all fields and rows\n";
 }
 
 std::string error_comparison_text(const ErrorReport& before, const ErrorReport& after, const TextStyle& style) {
@@ -268,8 +293,8 @@ std::string error_json(const ErrorRecord<Subject>& record) {
   return dump(json);
 }
 
-#define TEMPER_MAKE(S)                                                      \
-  template std::string error_text(const ErrorRecord<S>&, const TextStyle&); \
+#define TEMPER_MAKE(S)                                                                 \
+  template std::string error_text(const ErrorRecord<S>&, ErrorRows, const TextStyle&); \
   template std::string error_json(const ErrorRecord<S>&);
 TEMPER_EACH_SUBJECT(TEMPER_MAKE)
 #undef TEMPER_MAKE

@@ -23,8 +23,10 @@ struct ErrorRecord {
   typename Subject::ErrorReport report;
   std::optional<Reference> against;
 };
+/// The rows of the text: means and what solvers need, or all.
+enum class ErrorRows { means, all };
 template <class Subject>
-[[nodiscard]] std::string error_text(const ErrorRecord<Subject>& record, const TextStyle& style);
+[[nodiscard]] std::string error_text(const ErrorRecord<Subject>& record, ErrorRows rows, const TextStyle& style);
 template <class Subject>
 [[nodiscard]] std::string error_json(const ErrorRecord<Subject>& record);
 

@@ -11,6 +11,7 @@ namespace temper::app {
 namespace {
 
 constexpr std::size_t kIndent = 4;
+constexpr std::size_t kQuestion = 6;  // "what: "
 
 bool is_split(const Reason& reason) { return reason.kind == ReasonKind::split; }
 bool is_conflict(const Reason& reason) {
@@ -38,6 +39,16 @@ std::string wrapped(const std::string& text, std::size_t indent, const TextStyle
     result += (result.empty() ? "" : std::string(indent, ' ')) + line + "\n";
   }
   return result;
+}
+
+/// " 3. at (1, 2)", the first line of a place.
+std::string place_text(std::size_t number, const std::string& at) {
+  return fmt::format("{}at ({})\n", pad_left(std::to_string(number) + ". ", kIndent), at);
+}
+/// "    why:  …", a line of a place.
+std::string answer(std::string_view question, const std::string& text, const TextStyle& style) {
+  return std::string(kIndent, ' ') + pad_right(std::string(question) + ":", kQuestion) +
+         wrapped(text, kIndent + kQuestion, style);
 }
 
 /// The verdict on weights alone, if nothing else changes.
@@ -120,15 +131,13 @@ std::string command(const Mesh& mesh, const Cure& cure) {
 }
 
 std::string paragraph(const Reason& reason, std::size_t number, const Input& input, const TextStyle& style) {
-  const std::string head = pad_left(std::to_string(number) + ". ", kIndent);
-  std::string text = head + wrapped(fmt::format("At ({:.9g}, {:.9g}): ", reason.at.x, reason.at.y) +
-                                        reason_text(input.mesh(), reason, input.names.get()),
-                                    kIndent, style);
+  const ReasonWords words = reason_words(input.mesh(), reason, input.names.get());
+  std::string text = place_text(number, fmt::format("{:.9g}, {:.9g}", reason.at.x, reason.at.y)) +
+                     answer("what", words.what, style) + answer("why", words.why, style);
   for (const Cure& cure : reason.cures) {
     const std::string how = command(input.mesh(), cure);
-    text += std::string(kIndent, ' ') + "- " +
-            wrapped(cure_text(input.mesh(), cure, input.names.get()) + (how.empty() ? "" : " Try: " + how), kIndent + 2,
-                    style);
+    text +=
+        answer("cure", cure_text(input.mesh(), cure, input.names.get()) + (how.empty() ? "" : " Try: " + how), style);
   }
   return text;
 }
@@ -188,22 +197,25 @@ std::string summary(const tets::Explanation& e) {
 }
 
 std::string paragraph(const TetInput& input, const tets::Reason& reason, std::size_t number, const TextStyle& style) {
-  const std::string blank(kIndent, ' ');
   const auto name = [&](VertexId v) { return input.vertex_number(v); };
-  const std::string why = fmt::format(
-      "Tetrahedron {} ({}) at ({:.9g}, {:.9g}, {:.9g}): {}.", input.element_number(reason.tetrahedron),
-      input.vertex_numbers(reason.vertices, " "), reason.at.x, reason.at.y, reason.at.z, renumber(reason.why, name));
-  std::string text = pad_left(std::to_string(number) + ". ", kIndent) + wrapped(why, kIndent, style);
   const auto [a, b, c, d] = input.mesh().points(reason.tetrahedron);
-  const Vec3 center = reason.orthocenter;
-  text += fmt::format("{}orthocenter ({:.9g}, {:.9g}, {:.9g}), weights {:.6g} {:.6g} {:.6g} {:.6g}\n", blank, center.x,
-                      center.y, center.z, a.w, b.w, c.w, d.w);
+  const Vec3 at = reason.at, center = reason.orthocenter;
+  std::string text =
+      place_text(number, fmt::format("{:.9g}, {:.9g}, {:.9g}", at.x, at.y, at.z)) +
+      answer("what",
+             fmt::format("Tetrahedron {} ({}) with the weights {:.6g} {:.6g} {:.6g} {:.6g} and its orthocenter at "
+                         "({:.9g}, {:.9g}, {:.9g}).",
+                         input.element_number(reason.tetrahedron), input.vertex_numbers(reason.vertices, " "), a.w, b.w,
+                         c.w, d.w, center.x, center.y, center.z),
+             style) +
+      answer("why", renumber(reason.why, name) + ".", style);
   for (const tets::FaceHeight& face : reason.faces) {
-    text += fmt::format("{}{} {}: h = {:.4g}, h/l = {:.4g}{}{}\n", blank, face.boundary ? "boundary face" : "face",
-                        input.vertex_numbers(face.vertices, "-"), face.h, face.h_over_l,
-                        face.outside ? ", outside" : "", face.crossed ? "" : ", does not contain its own orthocenter");
+    text += fmt::format("{}{} {}: h = {:.4g}, h/l = {:.4g}{}{}\n", std::string(kIndent + kQuestion, ' '),
+                        face.boundary ? "boundary face" : "face", input.vertex_numbers(face.vertices, "-"), face.h,
+                        face.h_over_l, face.outside ? ", outside" : "",
+                        face.crossed ? "" : ", does not contain its own orthocenter");
   }
-  return text + blank + "- Try: " + command(reason.cure) + "\n";
+  return text + answer("cure", "Try: " + command(reason.cure), style);
 }
 
 // Of duals.
@@ -219,12 +231,21 @@ template <class Subject>
 std::string paragraph(const InputOf<Subject>& input, const DualReason& reason, Criterion criterion, std::size_t number,
                       const TextStyle& style) {
   const std::string third = Subject::dimension == 2 ? "" : fmt::format(", {:.9g}", reason.at.z);
-  const std::string text =
-      fmt::format("{} {} at ({:.9g}, {:.9g}{}): {}{} {:.4g}: {}.", reason.vertices.size() == 2 ? "Edge" : "Face",
-                  input.vertex_numbers(reason.vertices, "-"), reason.at.x, reason.at.y, third,
-                  dual_name(criterion, reason.kind), over_length<Subject>(criterion), reason.over_l,
-                  renumber(reason.why, [&](VertexId v) { return input.vertex_number(v); }));
-  return pad_left(std::to_string(number) + ". ", kIndent) + wrapped(text, kIndent, style);
+  const bool is_edge = reason.vertices.size() == 2;
+  const auto name = [&](VertexId v) { return input.vertex_number(v); };
+  return place_text(number, fmt::format("{:.9g}, {:.9g}{}", reason.at.x, reason.at.y, third)) +
+         answer(
+             "what",
+             fmt::format("{} {}: {}{} {:.4g}.", is_edge ? "Edge" : "Face", input.vertex_numbers(reason.vertices, "-"),
+                         dual_name(criterion, reason.kind), over_length<Subject>(criterion), reason.over_l),
+             style) +
+         answer("why", renumber(reason.why, name) + ".", style) +
+         answer("cure",
+                reason.kind == DualKind::inside
+                    ? "Other weights, a flip or moved vertices may help."
+                    : fmt::format("Other weights, moved vertices or a new vertex on this {} may help.",
+                                  is_edge ? "edge" : "face"),
+                style);
 }
 
 }  // namespace
@@ -236,10 +257,7 @@ std::string explanation_text(const DualExplanation& e, const InputOf<Subject>& i
   text += e.violations > 1 ? "\nThe worst first\n" : "\n";
   for (std::size_t i = 0; i < e.reasons.size(); ++i)
     text += paragraph<Subject>(input, e.reasons[i], e.criterion, i + 1, style);
-  text += rest(e.reasons.size(), e.violations);
-  return text +
-         "Other weights, flips and moved vertices may help. At the boundary and at interfaces, new vertices there, "
-         "too.\n";
+  return text + rest(e.reasons.size(), e.violations);
 }
 #define TEMPER_MAKE(S) \
   template std::string explanation_text(const DualExplanation&, const InputOf<S>&, const TextStyle&);

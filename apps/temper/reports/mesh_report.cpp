@@ -56,7 +56,7 @@ std::string mesh_text(const MeshRecord& r) {
   if (r.map.radius > 0) {
     text += fmt::format("sphere of radius {}, {:.4g} % of it meshed\n", r.map.radius, 100 * r.map.covered);
   }
-  text += fmt::format("{}, {}, {} of the outline; {} of the Delaunay triangles were not well-centered\n",
+  text += fmt::format("{}, {}, {} of the outline; {} of the Delaunay triangles were bad\n",
                       plural(r.quality.vertices, "vertex", "vertices"),
                       plural(r.quality.triangles, "triangle", "triangles"),
                       plural(count_edges(r.made), "edge", "edges"), r.made.delaunay_bad);

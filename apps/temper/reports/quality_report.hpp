@@ -63,9 +63,9 @@ template <class Subject>
 [[nodiscard]] constexpr std::string_view over_length(Criterion criterion) {
   return criterion == Criterion::coefficients && Subject::dimension == 2 ? "" : " over length";
 }
-/// "no edge has a negative coefficient", or how many have; the same of distances.
+/// "no edge has a negative coefficient", or "2 coefficients are bad (negative)". Also for distances.
 [[nodiscard]] std::string count_of_duals(std::size_t violations, Criterion criterion);
-/// "2 of 9 triangles are not well-centered", or "all 9 triangles are well-centered".
+/// "2 of 9 triangles are bad (not well-centered)", or "all 9 triangles are well-centered".
 template <class Subject>
 [[nodiscard]] std::string well_centered(std::size_t bad, std::size_t elements);
 

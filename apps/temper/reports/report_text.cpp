@@ -178,7 +178,7 @@ std::vector<BriefRow<Quality>> further_rows(const Quality& /*quality*/) {
 template <class AnyQuality>
 std::vector<BriefRow<AnyQuality>> brief_rows(const AnyQuality& quality) {
   std::vector<BriefRow<AnyQuality>> rows = further_rows(quality);
-  rows.insert(rows.begin(), {fmt::format("{} not well-centered", SubjectOf<AnyQuality>::elements),
+  rows.insert(rows.begin(), {fmt::format("bad {}", SubjectOf<AnyQuality>::elements),
                              [](const AnyQuality& q) { return std::to_string(bad_elements(q)); }});
   return rows;
 }
@@ -242,7 +242,7 @@ std::string well_centered(std::size_t bad, std::size_t elements) {
   if (bad == 0)
     return elements == 1 ? fmt::format("the {} is well-centered", Subject::element)
                          : fmt::format("all {} {} are well-centered", elements, Subject::elements);
-  return fmt::format("{} of {} {} not well-centered", bad, plural(elements, Subject::element, Subject::elements),
+  return fmt::format("{} of {} {} bad (not well-centered)", bad, plural(elements, Subject::element, Subject::elements),
                      bad == 1 ? "is" : "are");
 }
 

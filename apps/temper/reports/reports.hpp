@@ -60,7 +60,11 @@ struct TetDecRecord {
 [[nodiscard]] std::string dec_text(const TetDecRecord& record);
 [[nodiscard]] std::string dec_json(const DecRecord& record);
 [[nodiscard]] std::string dec_json(const TetDecRecord& record);
-/// The warnings that the author of a solver should read before using the operators: none for a well-centered mesh.
+/// The verdict on signs that is a warning: how many coefficients are not positive, and what to do. Empty: all are. It
+/// is the first line of the text.
+[[nodiscard]] std::string dec_trouble(const DecRecord& record);
+[[nodiscard]] std::string dec_trouble(const TetDecRecord& record);
+/// Other warnings for the author of a solver: none for a well-centered mesh.
 [[nodiscard]] std::vector<std::string> dec_warnings(const DecRecord& record);
 [[nodiscard]] std::vector<std::string> dec_warnings(const TetDecRecord& record);
 

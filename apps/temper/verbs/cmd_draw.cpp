@@ -273,8 +273,8 @@ void draw(const DrawSettings& s, InputOf<Subject>& input, Outputs& outputs) {
 Exit run_draw(const Arguments& arguments) {
   Command command(
       "draw",
-      "Draws triangles and their dual, or a cut through tetrahedra, as SVG, PNG or PDF. Triangles and tetrahedra that "
-      "are not well-centered are hatched.");
+      "Draws triangles and their dual, or a cut through tetrahedra, as SVG, PNG or PDF. Bad triangles and tetrahedra, "
+      "which are not well-centered, are hatched.");
   DrawSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

@@ -28,7 +28,7 @@ struct ErrorSettings {
   ProblemOptions problem;
   int refine = 0;
   std::uint64_t threads = 0;
-  bool condition = false, json = false;
+  bool condition = false, json = false, details = false;
   TensorOption tensor;
 };
 
@@ -58,6 +58,9 @@ void add_options(Command& command, ErrorSettings& s) {
   add_argument(command, "IN", s.input, "Mesh file. Its content shows the format.").require();
   add_projection(command, s.projection);
   add_heights(command, s.heights);
+  command.add_flag("--details", s.details,
+                   "Print the errors of each field, and all that is known of the matrices. Without it, the report has "
+                   "the means, and what solvers need.");
   command.add_flag("--json", s.json,
                    "Print the report as JSON. A null is an infinite number, or an order that is undefined.");
   add_text(command, "--against", "MESH", s.against,
@@ -168,7 +171,8 @@ void report_fields(const ErrorSettings& s, InputOf<Subject>& input, Outputs& out
     record.against->ratios = or_fail(error_ratios(record.report, record.against->report));
   }
   write_edges(s, record, input, outputs);
-  s.json ? print_data(error_json(record)) : print(error_text(record, text_style()));
+  s.json ? print_data(error_json(record))
+         : print(error_text(record, s.details ? ErrorRows::all : ErrorRows::means, text_style()));
 }
 
 DiffusionErrors measure_problem(const Command& command, const ErrorSettings& s, const Input& input) {

@@ -141,15 +141,13 @@ void print_explanation(const ExplainSettings& s, const AnyInput& input, const st
 Exit run_explain(const Arguments& arguments) {
   Command command(
       "explain",
-      "Explains every " + any_element() +
-          " that is not well-centered. A triangle is bad for one of two reasons. Either a proof shows a small set of "
-          "triangles for which no weights exist, or weights exist but have not been found. temper also tries cures on "
-          "the triangles around. For a tetrahedron it prints the orthocenter, the weights, the heights "
-          "over faces, and what may help. With --for vertex or cell it explains negative coefficients of edges, or "
-          "distances "
-          "that are not positive. The exit code does not depend on the result: to test a mesh, use temper "
-          "check "
-          "--require.");
+      "Explains every bad " + any_element() +
+          ": what is bad, why, and what cures it. Bad ones are not well-centered. With --for vertex or cell, negative "
+          "coefficients of edges are bad, or distances that are not positive. A triangle is bad for one of two "
+          "reasons. Either a proof shows a small set of triangles for which no weights exist, or weights exist but "
+          "have not been found. temper also tries cures on the triangles around. For a tetrahedron it prints the "
+          "orthocenter, the weights, the heights over faces, and what may help. The exit code does not depend on the "
+          "result: to test a mesh, use temper check --require.");
   ExplainSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

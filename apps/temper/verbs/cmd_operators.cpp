@@ -187,6 +187,13 @@ std::vector<io::Barrier> make_barriers(const DecSettings& s, const Input& input)
   return *std::move(made);
 }
 
+/// The JSON has no sentences: the verdict is a warning then.
+template <class Record>
+void warn(const DecSettings& s, const Record& record) {
+  if (const std::string trouble = dec_trouble(record); s.json && !trouble.empty()) print_warnings(std::array{trouble});
+  print_warnings(dec_warnings(record));
+}
+
 void write(const Command& command, const DecSettings& s, TetInput& input, const std::vector<io::DecFormat>& formats,
            Executor* executor) {
   const auto view = take_to_metric(input, s.tensor);
@@ -194,7 +201,7 @@ void write(const Command& command, const DecSettings& s, TetInput& input, const 
   if (view) complex = mapped_back(std::move(complex), view->pieces, view->plain);
   const tets::DecSummary summary = tets::summarize(complex);
   TetDecRecord record = {s.input, summary, {}};
-  print_warnings(dec_warnings(record));
+  warn(s, record);
   io::DecWriteOptions options;
   options.formats = formats;
   options.points = input.points;
@@ -226,7 +233,7 @@ void write(const Command& command, const DecSettings& s, Input& input, const std
   const std::optional<Columns> under_layers = make_columns(s, input, complex, cells);
   const Columns* const columns = under_layers ? &*under_layers : nullptr;
   DecRecord record = {s.input, summary, cells, columns, {}};
-  print_warnings(dec_warnings(record));
+  warn(s, record);
   warn_of_halves(input);
   const std::vector<io::GroupCell> groups = columns != nullptr
                                                 ? io::cells_of_groups(input.file, input.loaded, input.mesh(), s.cells)

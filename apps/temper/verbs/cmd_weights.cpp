@@ -386,7 +386,7 @@ Exit drop(const WeightsSettings& s, Input& input, Outputs& outputs) {
     print(fmt::format("{{\"zeroed\": {}, \"flips\": {}, \"bad\": {}}}\n", weighted, flips, bad));
     return Exit::done;
   }
-  print(fmt::format("{} set to zero, {} flipped, {} not well-centered\nwrote {}\n",
+  print(fmt::format("{} set to zero, {} flipped, {} bad (not well-centered)\nwrote {}\n",
                     plural(weighted, "weight", "weights"), plural(flips, "edge", "edges"),
                     plural(bad, "triangle is", "triangles are"), s.output.path));
   return Exit::done;

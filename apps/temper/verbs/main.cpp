@@ -31,7 +31,7 @@ std::span<const Verb> verbs() {
        run_optimize},
       {"mesh", "mesh an outline, and optimize the mesh", run_mesh},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
-      {"explain", "explain why " + any_elements() + " are not well-centered, and find cures", run_explain},
+      {"explain", "explain why " + any_elements() + " are bad, and find cures", run_explain},
 #ifdef TEMPER_WITH_ERRORS
       {"errors", "measure the errors that solvers make on a mesh", run_errors},
 #endif

@@ -53,7 +53,7 @@ class Notes {
   void note_violations(std::size_t n) {
     if (n == 0) return;
     add(settings_.criterion == Criterion::well_centered
-            ? count_of(n, "triangle is", "triangles are") + " still not well-centered"
+            ? count_of(n, "triangle is", "triangles are") + " still bad (not well-centered)"
             : count_of(n, "dual of an edge still violates", "duals of edges still violate") +
                   " what the target needs: explain tells more");
   }
@@ -74,7 +74,7 @@ class Notes {
     const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
     const double bad = bad_part(mesh_.n_triangles(), count_bad(mesh_, settings_.executor()));
     if (bad > bad_before) {
-      add(percent(bad) + " of the triangles are not well-centered, " + percent(bad_before) +
+      add(percent(bad) + " of the triangles are bad (not well-centered), " + percent(bad_before) +
           " of the input's: energy " + std::string(settings_.energy().name) + " does not ask for that, energy BP does");
     }
   }

@@ -23,7 +23,8 @@ TEST_F(Dec, WritesTheFormatsAskedForAndSaysWhatItWrote) {
   const auto all = temper_ok({"operators", "in.vtu", "-o", "all"});
   EXPECT_TRUE(contains(all.out, "wrote all/operators.npz"));
   EXPECT_TRUE(contains(all.out, "wrote all/dual_edges.vtu"));
-  EXPECT_TRUE(contains(all.err, "triangles are not well-centered"));
+  EXPECT_TRUE(all.out.starts_with("in.vtu: ") && contains(all.out, " coefficients are bad (negative): "));
+  EXPECT_TRUE(contains(all.out, "Next: temper optimize IN -o OUT --for vertex")) << all.out;
   const auto json =
       nlohmann::json::parse(temper_ok({"operators", "in.vtu", "-o", "some", "--format", "vtu", "--json"}).out);
   EXPECT_EQ(json.at("files"), nlohmann::json({"some/dual.vtu", "some/dual_edges.vtu"}));
@@ -57,7 +58,7 @@ TEST_F(Dec, TetrahedraHaveTheSameVerb) {
   for (const char* said :
        {"faces                                            7", "wrote all/star3.npz", "wrote all/dual.vtu"})
     EXPECT_TRUE(contains(plain.out, said)) << plain.out;
-  EXPECT_TRUE(contains(plain.err, "2 of 2 tetrahedra are not well-centered")) << plain.err;
+  EXPECT_TRUE(contains(plain.out, "a.mesh: ") && contains(plain.out, " bad (negative): ")) << plain.out;
   const auto json = nlohmann::json::parse(
       temper_ok({"operators", "a.mesh", "-o", "k", "--coefficient", "1=2,2=3", "--format", "mtx", "--json"}).out);
   const auto check = nlohmann::json::parse(temper_ok({"check", "a.mesh", "--json"}).out);

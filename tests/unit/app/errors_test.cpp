@@ -16,7 +16,7 @@ class Errors : public Workshop {};
 
 TEST_F(Errors, PrintsErrorsOfEveryFieldTheirMeansAndTheMatrices) {
   make_input();
-  const std::string text = temper_ok({"errors", "in.vtu", "--condition"}).out;
+  const std::string text = temper_ok({"errors", "in.vtu", "--condition", "--details"}).out;
   for (const char* part : {"in.vtu: ", "relative error, L2", "relative error, maximum", "product (chosen)",
                            "bump (held-back)", "mean, chosen", "mean, held-back", "M-matrix", "positive definite",
                            "largest coefficient over median", "condition, at least"}) {
@@ -36,6 +36,22 @@ TEST_F(Errors, PrintsErrorsOfEveryFieldTheirMeansAndTheMatrices) {
   }
 }
 
+TEST_F(Errors, PrintsMeansAndWhatSolversNeedUnlessAllIsAskedFor) {
+  make_input();
+  const std::string text = temper_ok({"errors", "in.vtu", "--against", "in.vtu", "--refine", "1"}).out;
+  for (const char* part : {"mean relative error, 9 fields", "mean ratio, 9 fields", "mean order, 9 fields", "M-matrix",
+                           "negative coefficients", "--details prints all"})
+    EXPECT_TRUE(contains(text, part)) << part;
+  for (const char* part : {"bump", "singular", "merged cells"}) EXPECT_FALSE(contains(text, part)) << part;
+  const auto mean = nlohmann::json::parse(temper_ok({"errors", "in.vtu", "--json"}).out)["errors"]["mean"]["all"];
+  for (const char* norm : {"l2", "max"}) {
+    char number[32];
+    std::snprintf(number, sizeof number, " %.3e", mean["flux"][norm].get<double>());
+    EXPECT_TRUE(contains(text, number)) << norm;
+  }
+  EXPECT_TRUE(contains(temper_ok({"errors", "in.vtu", "--fields", "bump"}).out, "relative error, bump"));
+}
+
 TEST_F(Errors, TetrahedraHaveTheSameVerb) {
   // An octahedron in eight, around a vertex that is not in the middle.
   const auto octahedron = [](const std::string& middle) {
@@ -47,7 +63,7 @@ TEST_F(Errors, TetrahedraHaveTheSameVerb) {
   };
   write("a.mesh", octahedron("0.1 0.1 0.2"));
   write("b.mesh", octahedron("0 0 0"));
-  const std::string text = temper_ok({"errors", "a.mesh", "--against", "b.mesh", "--condition"}).out;
+  const std::string text = temper_ok({"errors", "a.mesh", "--against", "b.mesh", "--condition", "--details"}).out;
   for (const char* part : {"a.mesh: 8 tetrahedra, ", "oblique (chosen)", "mean, held-back",
                            "faces between merged cells", "condition, at least", "over the errors of b.mesh:"})
     EXPECT_TRUE(contains(text, part)) << part;
@@ -186,7 +202,8 @@ TEST_F(Errors, OfAnOptimizationOnlyMeasures) {
 
 TEST_F(Errors, MeasuresOrders) {
   temper_ok({"example", "sheared-grid", "--nx", "6", "--ny", "6", "-o", "in.vtu"});
-  const std::string text = temper_ok({"errors", "in.vtu", "--refine", "2", "--fields", "bump,crossed"}).out;
+  const std::string text =
+      temper_ok({"errors", "in.vtu", "--refine", "2", "--fields", "bump,crossed", "--details"}).out;
   EXPECT_TRUE(contains(text, "level 2"));
   EXPECT_TRUE(contains(text, "order, L2"));
   const auto json =

@@ -24,9 +24,8 @@ TEST_F(Optimize, MakesEveryTriangleWellCentered) {
   EXPECT_EQ(temper({"check", "in.vtu", "--require", "outside=0"}).exit, 3);
   const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu"});
   EXPECT_EQ(temper({"check", "out.vtu", "--require", "outside=0,not_crossed=0,nonregular=0,inverted=0"}).exit, 0);
-  for (const char* part :
-       {"in.vtu: 49 vertices, 72 triangles", "before", "after", "triangles not well-centered", "least margin",
-        "transmissibility", "angles (degrees)", "least edge/size", "wrote out.vtu"}) {
+  for (const char* part : {"in.vtu: 49 vertices, 72 triangles", "before", "after", "bad triangles", "least margin",
+                           "transmissibility", "angles (degrees)", "least edge/size", "wrote out.vtu"}) {
     EXPECT_TRUE(contains(outcome.out, part));
   }
   EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 10);
@@ -122,9 +121,10 @@ TEST_F(Optimize, InTheMetricOfATensorAndNowhereElse) {
 }
 
 TEST_F(Optimize, TakesATensorForEachRegion) {
-  write("rock.poly",
-        "6 2 0 0\n0 0 0\n1 1 0\n2 1 0.6\n3 1 1\n4 0 1\n5 0 0.4\n7 0\n0 0 1\n1 1 2\n2 2 3\n3 3 4\n4 4 5\n5 5 0\n6 5 2\n0\n"
-        "2\n0 0.5 0.1 1\n1 0.5 0.9 2\n");
+  write(
+      "rock.poly",
+      "6 2 0 0\n0 0 0\n1 1 0\n2 1 0.6\n3 1 1\n4 0 1\n5 0 0.4\n7 0\n0 0 1\n1 1 2\n2 2 3\n3 3 4\n4 4 5\n5 5 0\n6 5 2\n0\n"
+      "2\n0 0.5 0.1 1\n1 0.5 0.9 2\n");
   temper_ok({"mesh", "rock.poly", "-o", "rock.vtu", "--size", "0.12"});
   const std::vector<std::string> tensors = {"--tensor", "1=1,0,4", "--tensor", "2=3,1,2"};
   const auto with = [&](std::vector<std::string> words) {
@@ -145,7 +145,7 @@ TEST_F(Optimize, TakesATensorForEachRegion) {
   EXPECT_EQ(temper_ok(with({"check", "weighted.vtu"})).err, "");
   // The layers as files for MODFLOW, which computes lengths of DISV itself.
   write("layers.csv", "vertex,top,bottom 1\n*,1,0\n");
-  const std::vector<std::string> layers = {"operators", "out.vtu",     "-o",     "model",    "--layers",
+  const std::vector<std::string> layers = {"operators",  "out.vtu", "-o",        "model",   "--layers",
                                            "layers.csv", "--cells", "triangles", "--format"};
   const auto format = [&](const std::string& name) {
     std::vector<std::string> words = layers;
@@ -154,8 +154,9 @@ TEST_F(Optimize, TakesATensorForEachRegion) {
   };
   temper_ok(format("disu,tough,uge"));
   EXPECT_TRUE(contains(temper(format("disv")).err, "MODFLOW computes lengths itself, without the tensor"));
-  EXPECT_TRUE(contains(temper(with({"operators", "out.vtu", "-o", "model", "--layers", "layers.csv", "--format", "disu"})).err,
-                       "a power cell may have several tensors"));
+  EXPECT_TRUE(
+      contains(temper(with({"operators", "out.vtu", "-o", "model", "--layers", "layers.csv", "--format", "disu"})).err,
+               "a power cell may have several tensors"));
 }
 
 TEST_F(Optimize, TensorsThatDoNotFitAreTold) {
@@ -170,7 +171,8 @@ TEST_F(Optimize, TensorsThatDoNotFitAreTold) {
   EXPECT_TRUE(contains(refused({"--tensor", "7=1,0,2"}), "in.vtu: --tensor: there is no value for region 0"));
   EXPECT_TRUE(contains(refused({"--tensor", "0=1,0,2", "--tensor", "9=1,0,3"}), "--tensor: the mesh has no region 9"));
   EXPECT_TRUE(contains(refused({"--tensor", "0=1,0,2", "--tensor", "0=1,0,3"}), "--tensor: region 0 has two values"));
-  EXPECT_TRUE(contains(refused({"--tensor", "0=1,0,2", "--tensor", "1,0,3"}), "or one other value, found '1,0,3', too"));
+  EXPECT_TRUE(
+      contains(refused({"--tensor", "0=1,0,2", "--tensor", "1,0,3"}), "or one other value, found '1,0,3', too"));
   EXPECT_TRUE(contains(refused({"--tensor", "sand=1,0,2"}), "expected the number or name of a region before '='"));
   EXPECT_TRUE(contains(refused({"--tensor", "0=1,2"}), "expected three numbers KXX,KXY,KYY, found 2 in '0=1,2'"));
   EXPECT_TRUE(contains(refused({"--tensor", "k"}), "--tensor: there are no cell data 'k' of three numbers"));
@@ -180,13 +182,16 @@ TEST_F(Optimize, TensorsThatDoNotFitAreTold) {
 
 TEST_F(Optimize, TakesTensorsFromCellDataAsMODFLOWHasThem) {
   // A square of two triangles: k11 and k22 of axes that are turned by 30 degrees in one of them.
-  const std::string head =
-      "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" "
-      "NumberOfCells=\"2\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 1 1 "
-      "0 0 1 0</DataArray></Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 0 2 "
-      "3</DataArray><DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3 6</DataArray><DataArray "
-      "type=\"UInt8\" Name=\"types\" format=\"ascii\">5 5</DataArray></Cells><CellData>",
-                    tail = "</CellData></Piece></UnstructuredGrid></VTKFile>";
+  const std::string
+      head =
+          "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" "
+          "NumberOfCells=\"2\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 "
+          "0 1 1 "
+          "0 0 1 0</DataArray></Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 0 "
+          "2 "
+          "3</DataArray><DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3 6</DataArray><DataArray "
+          "type=\"UInt8\" Name=\"types\" format=\"ascii\">5 5</DataArray></Cells><CellData>",
+      tail = "</CellData></Piece></UnstructuredGrid></VTKFile>";
   const auto data = [](const std::string& name, const std::string& values, int components = 1) {
     return "<DataArray type=\"Float64\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
            "\" format=\"ascii\">" + values + "</DataArray>";
@@ -580,8 +585,8 @@ TEST_F(OptimizeTetrahedra, AreMadeWellCenteredAndTheReportHasTheNumbersOfTheFile
   EXPECT_EQ(temper({"check", "in.vtu", "--require", "outside=0"}).exit, 3);
   const Outcome outcome = temper_ok(
       {"optimize", "in.vtu", "-o", "out.vtu", "--require", "outside=0,nonregular=0", "--write", "r.json", "h.csv"});
-  for (const char* part : {"in.vtu: ", " inside), ", "before", "after", "tetrahedra not well-centered",
-                           "converged after ", "wrote out.vtu, r.json, h.csv"})
+  for (const char* part : {"in.vtu: ", " inside), ", "before", "after", "bad tetrahedra", "converged after ",
+                           "wrote out.vtu, r.json, h.csv"})
     EXPECT_TRUE(contains(outcome.out, part)) << part;
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(names(), (std::vector<std::string>{"h.csv", "in.vtu", "out.vtu", "r.json"}));

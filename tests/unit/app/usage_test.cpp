@@ -247,7 +247,7 @@ TEST_F(Usage, SuffixesMayBeLargeAndOneIsOne) {
   temper_ok({"draw", "A.MSH", "-o", "A.SVG"});
   const Outcome check = temper_ok({"check", "A.MSH", "--write", "A.JSON"});
   EXPECT_TRUE(contains(check.out, "A.MSH: 3 vertices, 1 triangle\n"));
-  EXPECT_TRUE(contains(check.out, "1 of 1 triangle is not well-centered"));
+  EXPECT_TRUE(contains(check.out, "1 of 1 triangle is bad (not well-centered)"));
   EXPECT_EQ(read_json("A.JSON")["triangles"], 1);
   EXPECT_TRUE(read("A.MSH").starts_with("$MeshFormat\n4.1"));
 }

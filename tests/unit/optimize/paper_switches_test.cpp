@@ -290,7 +290,7 @@ TEST(PaperMethod, SaysWhenMoreTrianglesAreBadOrEdgesNotRegular) {
     return std::any_of(report->notes.begin(), report->notes.end(),
                        [&](const std::string& note) { return note.find(text) != std::string::npos; });
   };
-  EXPECT_TRUE(says("of the triangles are not well-centered"));
+  EXPECT_TRUE(says("of the triangles are bad (not well-centered)"));
   EXPECT_TRUE(says("not regular, since `hidden=keep`"));
 }
 
