@@ -92,6 +92,11 @@ test('each control of a report of optimize does what it says', async () => {
     assert.ok((await page.textContent(`#${section}`)).length > 3, `#${section} is empty`);
   }
   assert.match(await page.textContent('#again pre'), /^temper optimize /);
+  assert.equal(await page.locator('#loading').count(), 0);
+  assert.equal(await page.inputValue('#measure'), 'margin');
+  const least = page.locator('#summary tr', { hasText: /^Least h\/l/ }).first();
+  assert.equal(await least.locator('td').first().getAttribute('class'), 'is-bad');
+  assert.equal(await least.locator('td').last().getAttribute('class'), '');
   const measures = await page.evaluate(() => JSON.parse(document.querySelector('#measures').textContent));
   assert.equal(await page.locator('#summary tbody tr').count(), measures.length);
   for (const community of await page.locator('#summary details').all()) await community.locator('summary').click();
@@ -203,7 +208,7 @@ test('tetrahedra are cut by a plane that the user moves', async () => {
   const { page, close } = await open('tets.html');
   await shoot(page, 'tetrahedra');
   assert.match(await page.textContent('#verdict'), /of 384 tetrahedra are/);
-  assert.match((await section(page)).words, /^Cut at z = 2: \d+ tetrahedra, \d+ of them not well-centered/);
+  assert.match((await section(page)).words, /^Cut at z = 2: \d+ tetrahedra, \d+ of them bad/);
   for (const axis of ['z', 'x', 'y']) {
     if (axis !== 'z') await changes(page, axis, () => page.check(`[name=axis][value="${'xyz'.indexOf(axis)}"]`, { force: true }));
     for (const [part, at] of [[1, 0.004], [250, 1], [500, 2], [777, 3.108], [1000, 3.996]]) { // along faces of the boundary, and elsewhere

@@ -34,7 +34,7 @@ export function showQuality(table: HTMLElement, q: Quality): void {
   fill(table, [
     ['vertices', String(q.vertices)],
     ['triangles', String(q.triangles)],
-    ['not well-centered', count(badOf(q))],
+    ['bad', count(badOf(q))],
     ['edges not regular', count(q.non_regular_edges)],
     ['least h/ℓ', { text: short(q.min_h_over_l), bad: !(q.min_h_over_l > 0) }],
     ['least d/ℓ', { text: short(q.min_d_over_l), bad: !(q.min_d_over_l > 0) }],

@@ -46,7 +46,7 @@ async function shot(name) {
 }
 /** A cell of the table of the mesh, as a number. */
 const cell = async (title) => parseFloat(await page.locator('#quality tr', { hasText: title }).locator('td').first().innerText());
-const bad = () => cell('not well-centered');
+const bad = () => cell('bad');
 const progress = () => page.innerText('#progress');
 
 async function optimize() {

@@ -116,7 +116,7 @@ class Page {
   private describeCut(): string {
     const { cells, verdicts } = this.shown.after.mesh;
     const all = new Set(cells), bad = new Set(cells?.filter((_, t) => verdicts![t] !== 0));
-    return `Cut at ${planeName(this.plane!)}: ${number(all.size)} tetrahedra, ${number(bad.size)} of them not well-centered`;
+    return `Cut at ${planeName(this.plane!)}: ${number(all.size)} tetrahedra, ${number(bad.size)} of them bad`;
   }
 
   private tellPlane(): void {
@@ -139,7 +139,7 @@ class Page {
     select.append(make('option', { value: '' }, 'none'));
     for (const measure of this.colors) {
       if (measure.kinds && !regions) continue;
-      select.append(make('option', { value: measure.key, selected: tets !== undefined && measure.key === 'margin' }, measure.label));
+      select.append(make('option', { value: measure.key, selected: measure.key === 'margin' }, measure.label));
     }
     select.addEventListener('change', () => this.recolor());
     this.recolor();
@@ -172,7 +172,7 @@ class Page {
         make('div', { class: 'ticks' }, ...ticks));
     }
     const anyBad = this.viewer.badTriangles('after').length + this.viewer.badTriangles('before').length > 0;
-    if (this.viewer.layers.bad && anyBad) legend.append(make('div', { class: 'bad' }, make('i', { class: 'swatch striped' }), 'not well-centered'));
+    if (this.viewer.layers.bad && anyBad) legend.append(make('div', { class: 'bad' }, make('i', { class: 'swatch striped' }), 'bad: not well-centered'));
     legend.hidden = legend.childElementCount === 0;
   }
 
@@ -343,10 +343,11 @@ async function start(): Promise<void> {
   const title = document.title;
   document.title = `${title} – temper`;
   const [before, after] = [await readMesh('before'), await readMesh('after')];
+  byId('loading').remove();
   if (!after) return;
   const words = wordsOf(after);
   headline(report, title, { before: before ? countBad(before) : undefined, after: countBad(after) }, verdictsOf(after).length, words);
-  summary(report, readMeasures());
+  summary(report, readMeasures(), after.tets !== undefined);
   histograms(report, words);
   sweeps(report, words);
   solverErrors(report);

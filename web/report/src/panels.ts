@@ -19,14 +19,21 @@ export function headline(report: Report, title: string, bad: { before?: number; 
   verdict.textContent =
     bad.after === 0
       ? `All ${plural(elements, `${one} is`, `${many} are`)} well-centered`
-      : `${number(bad.after)} of ${plural(elements, `${one} is`, `${many} are`)} not well-centered`;
-  if (bad.before !== undefined) verdict.append(make('small', {}, `before: ${number(bad.before)} were not`));
+      : `${number(bad.after)} of ${plural(elements, `${one} is`, `${many} are`)} bad (not well-centered)`;
+  if (bad.before !== undefined) verdict.append(make('small', {}, `before: ${number(bad.before)} were bad`));
 }
 
+/** The least margins: a triangle is bad where one is not positive. Tetrahedra are judged by h alone. */
+const kMargins = ['min_h_over_l', 'min_d_over_l'];
+/** What tetrahedra may miss without being bad. */
+const kNotAsked = ['faces_not_crossed', 'edges_not_crossed', 'completely_well_centered_fraction', 'min_d_over_l'];
+
 /** Whether a number is not what is asked for where nobody says more. */
-function misses(measure: Measure, value: unknown): boolean {
-  const { better, wanted } = measure;
-  if (wanted === null || value === null) return false;
+function misses(measure: Measure, value: unknown, isOfTetrahedra: boolean): boolean {
+  const { better, wanted, key } = measure;
+  if (value === null || (isOfTetrahedra && kNotAsked.includes(key))) return false;
+  if (kMargins.includes(key)) return Number(value) <= 0;
+  if (wanted === null) return false;
   const found = Number(value);
   return better === 'larger' ? found < wanted : better === 'less' ? found > wanted : found !== wanted;
 }
@@ -35,12 +42,12 @@ function misses(measure: Measure, value: unknown): boolean {
 const measured = (measure: Measure, value: unknown): string => (value === null && measure.better === 'larger' ? '–' : number(value));
 
 /** The measures of meshes as such, and, folded up, those of each community that runs codes on them. */
-export function summary(report: Report, measures: Measure[]): void {
+export function summary(report: Report, measures: Measure[], isOfTetrahedra: boolean): void {
   const { before, after } = report;
   if (!after) return;
   const cell = (quality: Quality, measure: Measure, old: boolean): HTMLElement => {
     const value = quality[measure.key];
-    return make('td', { class: misses(measure, value) ? 'is-bad' : old ? 'was' : '' }, measured(measure, value));
+    return make('td', { class: misses(measure, value, isOfTetrahedra) ? 'is-bad' : old ? 'was' : '' }, measured(measure, value));
   };
   const row = (measure: Measure): (HTMLElement | string)[] => [
     make('th', { scope: 'row', title: measure.definition }, capital(measure.label)),
@@ -82,7 +89,7 @@ export function sweeps(report: Report, { many }: Words): void {
   const numbers = history.map((_, i) => i);
   const charts: [string, string, (number | null)[]][] = [
     ['Energy', 'energy', history.map((s) => s.energy)],
-    [`${capital(many)} that are not well-centered`, 'bad', history.map((s) => s.bad)],
+    [`Bad ${many}`, 'bad', history.map((s) => s.bad)],
     ['Flips', 'flips', history.map((s) => s.flips)],
   ];
   for (const [label, name, values] of charts) section.append(make('h3', {}, label), series(`${label} by sweep`, name, numbers, values));

@@ -1,6 +1,5 @@
-// Colors: those of the layers in light and dark, and maps from values to colors. Amounts go by viridis, perceptually
-// uniform and the same to the color-blind; kinds by the eight hues of Okabe and Ito, without the one of bad triangles.
-import { interpolateViridis } from 'd3-scale-chromatic';
+// Colors: those of the layers in light and dark, and maps from values to colors. Amounts go from
+// blue to yellow with growing lightness, as in the pictures of `temper draw`; bright is good. Kinds go by the eight hues of Okabe and Ito, without the one of bad triangles.
 import { type Measure, quantiles } from './measures.ts';
 
 export interface Theme {
@@ -46,6 +45,9 @@ export const darkTheme: Theme = {
   selection: '#ffffff',
 };
 
+/** As kScaleColors of src/draw/panel.hpp. */
+const kAmountColors = ['#7690c8', '#8ba1cc', '#9fb3d0', '#b3c5d3', '#c6d7d6', '#d5e2d2', '#e1e6c6', '#eceaba', '#f6eead', '#fff2a0'];
+
 const kKindColors = ['#56b4e9', '#009e73', '#f0e442', '#0072b2', '#cc79a7', '#e69f00', '#9aa4b2', '#6b4f9e'];
 
 /** "#rrggbb" or "rgb(r, g, b)" as numbers from 0 to 1. */
@@ -56,6 +58,13 @@ export function rgb(color: string): [number, number, number] {
   }
   const [r, g, b] = (color.match(/[\d.]+/g) ?? ['0', '0', '0']).map(Number);
   return [r / 255, g / 255, b / 255];
+}
+
+/** From 0, dark, to 1, bright. */
+function amountColor(part: number): string {
+  const at = part * (kAmountColors.length - 1), below = Math.min(kAmountColors.length - 2, Math.floor(at));
+  const from = rgb(kAmountColors[below]), to = rgb(kAmountColors[below + 1]);
+  return `rgb(${from.map((c, i) => Math.round(255 * (c + (at - below) * (to[i] - c)))).join(', ')})`;
 }
 
 /** From values to colors. */
@@ -82,7 +91,8 @@ export function scaleOf(measure: Measure, values: readonly Float32Array[]): Colo
   const high = measure.high ?? Math.max(...ends.map((e) => e[1]));
   const color = (value: number): string => {
     const part = high > low ? (value - low) / (high - low) : 0.5;
-    return interpolateViridis(Math.max(0, Math.min(1, Number.isFinite(part) ? part : 0)));
+    const bright = Number.isFinite(part) ? Math.max(0, Math.min(1, part)) : part > 0 ? 1 : 0;
+    return amountColor(measure.better === 'less' ? 1 - bright : bright);
   };
   return { measure, low, high, kinds: [], color };
 }

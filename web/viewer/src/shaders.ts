@@ -61,7 +61,7 @@ uniform float ratio;
 out vec4 color;
 void main() {
   float at = mod((gl_FragCoord.x + gl_FragCoord.y) / ratio, 7.0);
-  color = vec4(ink.rgb, ink.a * (at < 2.6 ? 0.95 : 0.4));
+  color = vec4(at < 2.6 ? ink.rgb : mix(ink.rgb, vec3(1.0), 0.8), 0.95 * ink.a);
 }`;
 
 export const markVertex = `${kVertex}
