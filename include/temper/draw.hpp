@@ -12,6 +12,7 @@
 #include "temper/detail/cells.hpp"
 #include "temper/detail/tensor.hpp"
 #include "temper/mesh.hpp"
+#include "temper/quality.hpp"
 
 namespace temper {
 
@@ -20,11 +21,12 @@ struct Box {
   Vec2 low, high;
 };
 
-/// Colors of triangles by a number, from dark for the least to light for the greatest value in all panels. Infinite
-/// values do not count for the scale and get the color of its nearest end. NaN has no color.
+/// Colors of triangles by a number, from dark to light over the values in all panels: light is good. Infinite values do
+/// not count for the scale and get the color of its nearest end. NaN has no color.
 struct TriangleColors {
   std::string label;                                 ///< Label next to the scale
   std::vector<IdVector<TriangleId, double>> values;  ///< Value of each triangle, for each panel
+  Preference better = Preference::larger;            ///< With `less` the least values are light, else the greatest
 };
 
 /// A line on faces of power cells, such as a fault.
@@ -64,7 +66,7 @@ struct DrawOptions {
   std::string title = {};  ///< Title above the picture
 };
 
-/// Draws one panel.
+/// Draws one panel. Dots mark fixed vertices inside that are on no line, such as wells.
 [[nodiscard]] std::string draw_svg(const Mesh& mesh, const DrawOptions& options = {});
 /// Draws two panels next to each other, with one scale, one view and one zoom box. Precondition: both meshes lie in the
 /// plane, or both on spheres.

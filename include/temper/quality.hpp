@@ -158,6 +158,7 @@ struct TriangleValue {
   std::string_view name;   ///< "quality", "angle", …
   std::string_view label;  ///< Label for legends, with the unit
   double (*of)(const Mesh& mesh, TriangleId t);
+  Preference better = Preference::larger;  ///< Values that are bright in pictures
 };
 /// Rows of the table of triangle values:
 ///   - quality: the least of h/ℓ, d/ℓ and 1 − d/ℓ; positive in well-centered triangles, −∞ in inverted ones

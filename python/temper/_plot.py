@@ -46,7 +46,7 @@ def _angles(mesh: Mesh) -> npt.NDArray[np.float64]:
 
 _COLORS: dict[str, Any] = {
     "quality": (_least, "least of h/ℓ, d/ℓ", "cividis"),
-    "angle": (_angles, "largest angle [°]", "cividis"),
+    "angle": (_angles, "largest angle [°]", "cividis_r"),
     "region": (lambda mesh: mesh.regions, "region", "tab10"),
 }
 

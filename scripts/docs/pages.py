@@ -43,7 +43,7 @@ MEASURED = "docs/explanation/measured.md"  # has the table of results
 DRAWN_ELSEWHERE = {
     **{f"few-points-{i}.svg": "bench/cgshop.py, and `temper draw --before`: the outlines are not in the repository" for i in (1, 2, 3)},
     "paraview.png": "ParaView: examples/paraview/margins.py with the ring of docs/howto/pyvista.md before and after `temper optimize`",
-    "report.jpg": "a browser shows the page of `temper optimize --write FILE.html`",
+    "report.jpg": "Chromium shows a report: scripts/docs/report_picture.py",
     "signs.svg": "drawn by hand: symbols, no numbers",
 }
 COLUMNS = ("before", "energy", "default", "accuracy", "for")  # of `results`, which a benchmark leaves

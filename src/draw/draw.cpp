@@ -80,8 +80,9 @@ Key scale_key(const std::string& label, const ColorScale& scale) {
   };
   if (scale.low <= scale.high) key.label += ": " + number(scale.low) + " to " + number(scale.high);
   for (std::size_t i = 0; i < kScaleColors.size(); ++i) {
+    const char* const color = kScaleColors[scale.reversed ? kScaleColors.size() - 1 - i : i];
     key.mark += "<rect x=\"" + short_number(kBox * static_cast<double>(i)) + "\" y=\"-0.45\" width=\"" +
-                short_number(kBox) + "\" height=\"0.9\" fill=\"" + kScaleColors[i] + "\"/>";
+                short_number(kBox) + "\" height=\"0.9\" fill=\"" + color + "\"/>";
   }
   return key;
 }
@@ -140,6 +141,8 @@ std::vector<Key> legend(std::span<const Shown> shown, const Viewport& viewport, 
   if (any(shown, [](const Panel& p) { return p.negative; })) {
     keys.push_back({"weight < 0", circle_mark(Palette::negative, "stroke-dasharray=\"0.3 0.15\"")});
   }
+  if (any(shown, [](const Panel& p) { return p.fixed; }))
+    keys.push_back({"fixed point", std::string("<circle cx=\"0.75\" r=\"0.28\" fill=\"") + Palette::outline + "\"/>"});
   if (any(shown, [](const Panel& p) { return p.rings; })) {
     keys.push_back({"nearly coincident", circle_mark(Palette::warning)});
   }

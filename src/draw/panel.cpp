@@ -21,7 +21,7 @@ constexpr double kDualTimes = 2.2, kNegativeTimes = 3.5;
 constexpr double kRingWidth = 0.09, kPeriodWidth = 0.1;                       // of the font size
 constexpr double kHatchPeriod = 0.25, kLeastHatch = 0.15, kMostHatch = 0.36;  // of an edge; of the font size
 constexpr double kNearCoincident = 0.05;  // of the mean of the other edges around: nothing to see between the two ends
-constexpr double kRingRadius = 0.35;      // of the font size
+constexpr double kRingRadius = 0.35, kDotRadius = 0.28;  // of the font size
 constexpr double kFontPerEdge = 0.22, kLeastFont = 3;
 
 /// The shifts from the mesh to its images that a picture of the domain and its margin shows.
@@ -92,6 +92,7 @@ class PanelPainter : public Painter {
     draw_face_lines();
     if (options_.dual && detailed_) draw_dual();
     if (options_.weights && detailed_ && options_.pieces.empty()) draw_weights();
+    mark_fixed();
     draw_periods();
     if (options_.near_coincident) ring_near_coincident();
     if (options_.vertex_numbers) number_vertices();
@@ -267,6 +268,26 @@ class PanelPainter : public Painter {
            short_number(2 * width / viewport_.unit) + "\" ";
   }
 
+  /// Vertices of lines and of the boundary are known by these.
+  void mark_fixed() {
+    PathText path;
+    for (const VertexId v : mesh_.vertices()) {
+      if (!mesh_.is_fixed(v) || mesh_.is_frozen(v) || is_on_line(v)) continue;
+      if (const auto at = seen(mesh_.point(v)))
+        path.circle(viewport_.grid(*at), viewport_.steps(kDotRadius * viewport_.em));
+    }
+    panel_.fixed = !path.empty();
+    stroke(path, "halo", "#ffffff", 2 * kRingWidth * viewport_.em);
+    fill(path, "fixed", Palette::outline);
+  }
+  [[nodiscard]] bool is_on_line(VertexId v) const {
+    if (mesh_.is_isolated(v) || mesh_.is_boundary(v)) return true;
+    for (const HalfedgeId h : mesh_.star(v)) {
+      if (mesh_.is_constrained(h)) return true;
+    }
+    return false;
+  }
+
   void ring_near_coincident() {
     PathText path;
     for (HalfedgeId h : mesh_.halfedges()) {
@@ -342,6 +363,7 @@ class SectionPainter : public Painter {
 
 ColorScale scale_of(const TriangleColors& colors) {
   ColorScale scale;
+  scale.reversed = colors.better == Preference::less;
   for (const auto& values : colors.values) {
     for (const double value : values) {
       if (!std::isfinite(value)) continue;
@@ -362,10 +384,15 @@ std::vector<std::int32_t> regions_of(const RegionCells& cells) {
 }
 
 std::size_t ColorScale::color(double value) const {
-  if (!(value > low)) return 0;
-  if (value >= high) return kScaleColors.size() - 1;
-  const double at = (value - low) / (high - low) * static_cast<double>(kScaleColors.size());
-  return std::min(static_cast<std::size_t>(at), kScaleColors.size() - 1);
+  constexpr std::size_t kLast = kScaleColors.size() - 1;
+  std::size_t color = 0;
+  if (value >= high && value > low) {
+    color = kLast;
+  } else if (value > low) {
+    const double at = (value - low) / (high - low) * static_cast<double>(kScaleColors.size());
+    color = std::min(static_cast<std::size_t>(at), kLast);
+  }
+  return reversed ? kLast - color : color;
 }
 
 namespace {

@@ -20,6 +20,7 @@ struct Panel {
   std::size_t bad = 0;       ///< of these, not well-centered
   // Drawn at all:
   bool dual = false, negative_dual = false, positive = false, negative = false, rings = false, faces = false;
+  bool fixed = false;
 };
 
 /// `number`: of the panel, from 0. `id` names the clip path: unique in the document.

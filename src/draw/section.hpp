@@ -14,6 +14,7 @@ namespace temper {
 
 struct ColorScale {
   double low = std::numeric_limits<double>::infinity(), high = -low;  ///< low > high: there is no finite value
+  bool reversed = false;                                              ///< light for low values
   /// Of kScaleColors.
   [[nodiscard]] std::size_t color(double value) const;
 };

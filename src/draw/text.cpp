@@ -97,7 +97,9 @@ std::string with_minus(std::string text) {
 // At most four significant digits, without trailing zeros.
 std::string significant(double value) {
   char buffer[64];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4);
+  const bool is_long = std::abs(value) >= 9999.5;  // four digits would need a power of ten
+  const auto result = is_long ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, 0)
+                              : std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4);
   return {buffer, result.ptr};
 }
 

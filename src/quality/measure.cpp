@@ -135,7 +135,7 @@ TriangleQuality triangle_quality(const Space& space, const std::array<WeightedPo
 std::span<const TriangleValue> triangle_values() {
   static constexpr auto kValues = std::to_array<TriangleValue>({
       {"quality", "least of h/ℓ, d/ℓ, 1 − d/ℓ", least_margin},
-      {"angle", "largest angle (degrees)", largest_angle},
+      {"angle", "largest angle (degrees)", largest_angle, Preference::less},
       {"size", "mean length of edges", mean_edge},
       {"region", "region", region},
   });

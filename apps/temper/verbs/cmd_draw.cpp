@@ -69,7 +69,7 @@ void add_options(Command& command, DrawSettings& s) {
   std::string colors = "none|";
   for (const TriangleValue& value : triangle_values()) colors += std::string(value.name) + "|";
   add_text(command, "--color", colors + "NAME", s.color,
-           "Number by which triangles are filled, dark for the least. If you do not give it, bad triangles are hatched "
+           "Number by which triangles are filled; bright is good. If you do not give it, bad triangles are hatched "
            "and the others show their margin, which is the 'quality' from 0 to 0.3. 'none' leaves triangles white. "
            "'quality' is the least of h/l, d/l and 1 - d/l. 'angle' is the largest angle. 'size' is the mean length of "
            "the edges. 'region' is the number of the region. NAME is data of triangles or points in the files.")
@@ -139,7 +139,13 @@ void set_colors(DrawOptions& options, const std::string& name, std::initializer_
   options.fill = name != "none";
   if (name.empty() || !options.fill) return;
   const auto known = std::ranges::find(triangle_values(), name, &TriangleValue::name);
-  options.colors = TriangleColors{known != triangle_values().end() ? std::string(known->label) : name, {}};
+  options.colors = TriangleColors{name, {}};
+  if (known != triangle_values().end()) {
+    options.colors->label = known->label;
+    options.colors->better = known->better;
+  }
+  for (const QualityMeasure& measure : quality_measures())  // data with the name that a community uses
+    if (measure.alias == name) options.colors->better = measure.better;
   for (const Input* panel : panels) options.colors->values.push_back(values_of(*panel, name));
 }
 

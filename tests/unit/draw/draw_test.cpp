@@ -71,6 +71,47 @@ TEST(Draw, ColorsAreOnOneScaleOfAllPanelsInsteadOfBadTriangles) {
   EXPECT_EQ(count(svg, "class=\"value\""), 9u);
 }
 
+TEST(Draw, LightIsGoodAlsoWhereLessIsBetter) {
+  const Mesh mesh = lattice({.n = 4});
+  DrawOptions options;
+  options.colors = TriangleColors{"angle", {}};
+  IdVector<TriangleId, double> values;
+  for (TriangleId t : mesh.triangles()) values.push_back(t.index == 0 ? 0 : 1);
+  options.colors->values.push_back(values);
+  const auto color_of = [](const std::string& svg, std::size_t number) {
+    std::size_t at = 0;
+    for (std::size_t i = 0; i <= number; ++i) at = svg.find("class=\"value\" fill=\"", at + 1);
+    return svg.substr(at + 20, 7);
+  };
+  const std::string larger = draw_svg(mesh, options);
+  options.colors->better = Preference::less;
+  const std::string less = draw_svg(mesh, options);
+  // Dark paths come first: one triangle is dark if larger is better, all others if less is.
+  EXPECT_EQ(color_of(larger, 0), color_of(less, 0));
+  EXPECT_NE(path_of(larger, "value"), path_of(less, "value"));
+  EXPECT_LT(path_of(larger, "value").size(), path_of(less, "value").size());
+  EXPECT_LT(larger.rfind("#7690c8"), larger.rfind("#fff2a0"));  // of the legend, from the least value on
+  EXPECT_GT(less.rfind("#7690c8"), less.rfind("#fff2a0"));
+}
+
+TEST(Draw, DotsMarkFixedPointsThatAreOnNoLine) {
+  Mesh mesh = everything();
+  EXPECT_FALSE(has_class(draw_svg(mesh), "fixed"));
+  VertexId inside, on_line;
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.is_boundary(v)) continue;
+    bool line = false;
+    for (const HalfedgeId h : mesh.star(v)) line = line || mesh.is_constrained(h);
+    (line ? on_line : inside) = v;
+  }
+  mesh.set_fixed(on_line, true);
+  EXPECT_FALSE(has_class(draw_svg(mesh), "fixed"));
+  mesh.set_fixed(inside, true);
+  const std::string svg = draw_svg(mesh);
+  EXPECT_TRUE(has_class(svg, "fixed"));
+  EXPECT_NE(svg.find("fixed point"), std::string::npos);
+}
+
 TEST(Draw, LinesOnFacesOfCellsAreThickAndHaveNamesWhereTheyAreSeen) {
   const Mesh mesh = lattice({.n = 10, .jitter = 0.1});
   DrawOptions options;
