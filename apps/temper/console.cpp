@@ -63,7 +63,7 @@ void flush_output() {
 }
 
 std::size_t output_width() {
-  constexpr std::size_t kUsual = 100;
+  constexpr std::size_t kUsual = 88;
   const std::size_t columns = terminal_columns();
   return columns > 0 ? columns : kUsual;
 }

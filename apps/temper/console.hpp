@@ -30,7 +30,7 @@ void print_to_standard_error();
 /// redirection.
 void flush_output();
 
-/// Columns of the terminal on standard output; 100 when it is none.
+/// Columns of the terminal on standard output; 88 when it is none, which pages of the docs show whole.
 [[nodiscard]] std::size_t output_width();
 
 /// Columns that UTF-8 text takes, one for each code point.

@@ -14,7 +14,7 @@ namespace temper::app {
 namespace {
 
 constexpr std::size_t kMeasureColumns = 34;
-constexpr std::size_t kColumns = 12;
+constexpr std::size_t kColumns = 10;
 
 // --- text ------------------------------------------------------------------------------------------------------------
 
@@ -133,7 +133,7 @@ std::string matrices_text(const ErrorSystem& p, const ErrorSystem& f, std::strin
 }
 
 std::string levels_text(const ErrorReport& report) {
-  std::string text = "\n" + row_text("refined family", {"triangles", "bad", "not regular"});
+  std::string text = "\n" + row_text("refined family", {"triangles", "bad", "irregular"});
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     const ErrorLevel& level = report.levels[i];
     text +=
