@@ -54,7 +54,8 @@ GivenTensors<K> tensors_from(const py::object& given) {
   GivenTensors<K> tensors;
   const auto sequence = given.cast<py::sequence>();
   if (sequence.size() == n) {
-    const auto k = given.cast<std::vector<double>>();
+    std::vector<double> k;
+    for (const auto& component : sequence) k.push_back(component.cast<double>());
     tensors.one = or_raise(MetricOf<K>::of(tensor_at<K>(k.data()))).tensor();
     return tensors;
   }
