@@ -50,7 +50,7 @@ ELSEWHERE = {
     "parse_data_rules": "Mesh.point_data_rules", "check_data_rules": "as parse_data_rules",
     "positions_of_vertices": "Mesh.point_data", "sources_of_tetrahedra": "TetMesh.cell_data", "find_tetrahedron": "as sources_of_tetrahedra", "tetrahedron_near": "as sources_of_tetrahedra", "sources_of_triangles": "Mesh.cell_data", "interpolated": "Mesh.point_data",
     "seams_of": "find_weights keeps the equations of interfaces", "with_mesh": "as seams_of", "close_gaps": "as seams_of", "largest_gap": "as seams_of",
-    "corner_weights_of": "Mesh.cell_data has corner_weights", "set_corner_weights": "as corner_weights_of",
+    "corner_weights_of": "Mesh.cell_data has corner_weights", "has_corner_weights": "as corner_weights_of", "corners_of": "as corner_weights_of", "largest_gap_of_edges": "as seams_of", "set_corner_weights": "as corner_weights_of",
     "printable": "messages are", "recoded": "bytes.decode", "needs_projection": "TemperError says it", "projection_text": "Projection's fields",
     "from_mesh": "write does it", "from_outline": "mesh_outline does it", "files_to_write": "write does it", "files_to_read": "read does it",
     "discard_unfinished": "a signal ends Python by an exception",
@@ -79,7 +79,7 @@ ELSEWHERE = {
 
 # Struct in C++, class in Python, fields that have another name or place there.
 STRUCTS = {
-    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "tensor", "triangle_tensors", "corner_weights", "problem", "paper", "accuracy", "solver_error", "guard", "tets"}),
+    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "tensor", "triangle_tensors", "tetrahedra_tensors", "corner_weights", "problem", "paper", "accuracy", "solver_error", "guard", "tets"}),
     "PaperSwitches": (temper.OptimizeOptions, set()),
     "OptimizeReport": (temper.types.OptimizeReport, {"corner_weights", "triangle_tensors"}), "RunReport": (temper.types.OptimizeReport, set()),
     "SweepRecord": (temper.types.SweepRecord, set()),

@@ -218,7 +218,7 @@ def test_a_run_is_that_of_the_program_and_the_boundary_stays(shaken, in_scratch)
 def test_words_for_triangles_are_refused_by_name(shaken):
     before = shaken.copy()
     for given, refused in (
-        ({"target": "mpas"}, "target 'mpas'"), ({"tensor": (1, 0, 1)}, "tensor"), ({"hooks": temper.Hooks(tracer=print)}, "tracer"),
+        ({"target": "mpas"}, "target 'mpas'"), ({"hooks": temper.Hooks(tracer=print)}, "tracer"),
         ({"options": {"problem": {}}}, "problem"), ({"keep": "sizes"}, "keep 'sizes'"),
         ({"options": {"energy": "T"}}, 'energy="T"'), ({"options": {"energy": "F", "star": "all"}}, 'star="all"'), ({"options": temper.OptimizeOptions(seed=5)}, "seed=5"),
     ):  # fmt: skip
@@ -387,5 +387,5 @@ def test_operators_take_a_coefficient_and_know_named_parts():
     for wrong, message in (([1.0, 2.0], "expected one value per tetrahedron"), ({2: 1.0}, "there is none for \\[1\\]")):
         with pytest.raises(ValueError, match=message):
             temper.dec_operators(mesh, coefficient=wrong)
-    with pytest.raises(TypeError, match="tensor is for triangles alone"):
+    with pytest.raises(ValueError, match="tensor: expected kxx, kxy, kxz, kyy, kyz, kzz, found 3 numbers"):
         temper.dec_operators(mesh, tensor=(1, 0, 1))
