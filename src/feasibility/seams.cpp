@@ -100,16 +100,16 @@ std::vector<WeightConstraint> Seams::equations_among(std::span<const VertexId> s
 
 void Seams::settle(VertexWeights& weights, const std::function<LinearForm(const WeightConstraint&)>& form_of) const {
   if (empty()) return;
-  constexpr double kRounding = 1e-17;  // of d/ℓ, in the root of the sum of squares
-  constexpr int kRounds = 3;           // the first leaves the rounding of its own sum
+  constexpr double kSettled = 1e-17;  // of d/ℓ, in the root of the sum of squares
+  constexpr int kSettlings = 3;       // the first leaves the rounding of its own sum
   std::vector<LinearForm> forms;
   for (const WeightConstraint& c : equations_) forms.push_back(form_of(c));
   const Equations equations(std::move(forms), weights.size());
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kSettlings; ++round) {
     Values violations = equations.violations(weights);
     for (double& v : violations) v = -v;
     const double size = norm(violations);
-    if (size <= kRounding * std::sqrt(static_cast<double>(violations.size()))) return;
+    if (size <= kSettled * std::sqrt(static_cast<double>(violations.size()))) return;
     VertexWeights settled = equations.spread(solve(equations, violations, 1e-8 * size));
     for (std::size_t v = 0; v < weights.size(); ++v) settled[VertexId(v)] += weights[VertexId(v)];
     if (norm(equations.violations(settled)) >= size) return;

@@ -47,13 +47,8 @@ FiniteVolumes volumes_of(const TetDecJob& job) {
   for (std::size_t e = 0; e < complex.edges.size(); ++e) {
     const tets::DecEdge& edge = complex.edges[EdgeId(e)];
     if (edge.dual_area == 0) continue;
-    FiniteVolumes::Connection c = {edge.from.index,
-                                   edge.to.index,
-                                   edge.crossing,
-                                   edge.length - edge.crossing,
-                                   edge.dual_area,
-                                   false,
-                                   edge.midpoint};
+    FiniteVolumes::Connection c = {edge.from.index, edge.to.index, edge.crossing, edge.length - edge.crossing,
+                                   edge.dual_area,  false,         edge.midpoint};
     if (has_tensor) {  // distances of the file's space, and the area with which a permeability of 1 gives the flux
       const double distance = length(mesh.position(edge.to) - mesh.position(edge.from));
       c.first_distance *= distance / edge.length;

@@ -174,7 +174,9 @@ TEST_F(Optimize, TensorsThatDoNotFitAreTold) {
   EXPECT_TRUE(
       contains(refused({"--tensor", "0=1,0,2", "--tensor", "1,0,3"}), "or one other value, found '1,0,3', too"));
   EXPECT_TRUE(contains(refused({"--tensor", "sand=1,0,2"}), "expected the number or name of a region before '='"));
-  EXPECT_TRUE(contains(refused({"--tensor", "0=1,2"}), "expected three numbers KXX,KXY,KYY, or for tetrahedra six numbers KXX,KXY,KXZ,KYY,KYZ,KZZ; found 2 in '0=1,2'"));
+  EXPECT_TRUE(contains(
+      refused({"--tensor", "0=1,2"}),
+      "expected three numbers KXX,KXY,KYY, or for tetrahedra six numbers KXX,KXY,KXZ,KYY,KYZ,KZZ; found 2 in '0=1,2'"));
   EXPECT_TRUE(contains(refused({"--tensor", "k"}), "--tensor: there are no cell data 'k' of three numbers"));
   EXPECT_TRUE(contains(refused({"--tensor", "k11,k22,angle1"}), "there are no cell data 'k11' of one number"));
   EXPECT_TRUE(contains(refused({"--tensor", "0=1,3,1"}), "expected a positive definite tensor"));

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "unit/feasibility/support.hpp"
 #include "support/layers_of_rock.hpp"
+#include "unit/feasibility/support.hpp"
 
 namespace temper {
 namespace {
