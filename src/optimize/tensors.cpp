@@ -274,10 +274,6 @@ class PiecesRun {
   const PlaneRun& run_;
 };
 
-}  // namespace
-
-namespace {
-
 /// Runs in the pieces of a mesh.
 Expected<OptimizeReport> optimize_pieces(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks,
                                          const PlaneRun& run) {

@@ -1,6 +1,6 @@
 // Tensors whose axes turn from triangle to triangle. Each edge would be an interface, and no vertex could move. So a
-// run takes zones, in which tensors are nearly one, and moves vertices in the plane of one tensor of each zone. Then
-// each triangle has its own tensor again, and weights of corners that keep the equations of all edges.
+// run takes the mean tensor of each region, and moves vertices in the plane of that tensor. Then each triangle has its
+// own tensor again, and weights of corners that keep the equations of all edges.
 #include <cmath>
 #include <cstdint>
 #include <map>
