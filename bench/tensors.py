@@ -266,7 +266,26 @@ def exact_table(size, ratios):
 # --- a smooth pressure ------------------------------------------------------------------------------------------------
 
 
-class Smooth:
+class Layers:
+    """Layers, each with a tensor, a pressure `u` and a source `f`. Regions count from 1."""
+
+    tensor = Case.tensor
+
+    @staticmethod
+    def at(functions, points, region):
+        values = np.empty(len(points))
+        for i, function in enumerate(functions):
+            values[region == i + 1] = function(*points[region == i + 1].T)
+        return values
+
+    def sources(self, mesh):
+        """Integrals over triangles, by the rule of three points that is exact for degree 2."""
+        corners = mesh.points[mesh.triangles]
+        places = [(corners.sum(axis=1) + 3 * corners[:, i]) / 6 for i in range(3)]
+        return temper.dec_operators(mesh).areas * sum(self.at(self.f, p, mesh.regions) for p in places) / 3
+
+
+class Smooth(Layers):
     """Three level layers with any tensors. Around its lower or upper interface at y₀, with pressure f(x) and flux s(x)
     there, a layer has u = f + (y − y₀) (s − kxy f′)/kyy + (y − y₀)² g(x). So pressure and flux are continuous."""
 
@@ -298,21 +317,6 @@ class Smooth:
         points = [(0, 0), (1, 0), (1, 1 / 3), (1, 2 / 3), (1, 1), (0, 1), (0, 2 / 3), (0, 1 / 3)]
         segments = [(i, (i + 1) % 8) for i in range(8)] + [(2, 7), (3, 6)]
         return temper.Outline(np.array(points), segments, regions=[(0.5, (2 * i + 1) / 6, i + 1, None) for i in range(3)])
-
-    tensor = Case.tensor
-
-    @staticmethod
-    def at(functions, points, region):
-        values = np.empty(len(points))
-        for i, function in enumerate(functions):
-            values[region == i + 1] = function(*points[region == i + 1].T)
-        return values
-
-    def sources(self, mesh):
-        """Integrals over triangles, by the rule of three points that is exact for degree 2."""
-        corners = mesh.points[mesh.triangles]
-        places = [(corners.sum(axis=1) + 3 * corners[:, i]) / 6 for i in range(3)]
-        return temper.dec_operators(mesh).areas * sum(self.at(self.f, p, mesh.regions) for p in places) / 3
 
     def error(self, mesh, f):
         left, right = f.edges.triangles.T

@@ -34,12 +34,12 @@ import numpy as np
 import porepy
 import scipy.sparse.linalg
 import temper
-from tensors import l2, turned
+from tensors import Layers, l2, turned
 
 TILT = 0.15
 
 
-class Tilted:
+class Tilted(Layers):
     """With coordinates s along and t across the interface, u = f(s) + t (q(s) − k_st f′(s))/k_tt + t² g(s) in a layer."""
 
     def __init__(self, ratio):
@@ -66,20 +66,6 @@ class Tilted:
         points = [(0, 0), (1, 0), (1, right), (1, 1), (0, 1), (0, left)]
         segments = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (5, 0), (5, 2)]
         return temper.Outline(np.array(points), segments, regions=[(0.5, 0.1, 1, None), (0.5, 0.9, 2, None)])
-
-    def tensor(self):
-        return {i + 1: (k[0, 0], k[0, 1], k[1, 1]) for i, k in enumerate(self.tensors)}
-
-    def at(self, functions, points, region):
-        values = np.empty(len(points))
-        for i, function in enumerate(functions):
-            values[region == i + 1] = function(*points[region == i + 1].T)
-        return values
-
-    def sources(self, mesh):
-        corners = mesh.points[mesh.triangles]
-        places = [(corners.sum(axis=1) + 3 * corners[:, i]) / 6 for i in range(3)]
-        return temper.dec_operators(mesh).areas * sum(self.at(self.f, p, mesh.regions) for p in places) / 3
 
     def error(self, mesh, centers, found):
         exact = self.at(self.u, centers, mesh.regions)
