@@ -1,4 +1,4 @@
-// What meshes in the planes of tensors share, whatever their cells are.
+// Meshes are mapped into the planes of tensors. Meshes of triangles and of tetrahedra share these functions.
 #pragma once
 
 #include <cmath>

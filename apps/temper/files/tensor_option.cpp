@@ -163,7 +163,7 @@ std::vector<typename Subject::Tensor> from_data(const TensorOption& option, cons
   return tensors;
 }
 
-/// The tensor of these components. Failure if they are those of other cells.
+/// The tensor of these components. Fails if they are for triangles and the cells are tetrahedra, or the reverse.
 template <class Subject>
 typename Subject::Tensor given_tensor(const std::vector<double>& components, const InputOf<Subject>& input) {
   using K = typename Subject::Tensor;

@@ -9,8 +9,8 @@
 
 namespace temper {
 
-/// Says whether so many cells are at violations that the places that they need are the whole mesh: a place is 13
-/// triangles at least.
+/// Says whether the places to change would cover the mesh: each cell at a violation needs a place, and a place has at
+/// least 13 triangles.
 [[nodiscard]] constexpr bool are_many(std::size_t at_violations, std::size_t n_cells) {
   return static_cast<double>(at_violations) > 1.0 / 13 * static_cast<double>(n_cells);
 }

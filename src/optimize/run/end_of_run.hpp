@@ -14,7 +14,8 @@ struct ReportedNumbers {
   std::size_t bad = 0;
 };
 
-/// What a run has at its end. `Mesh` has a function changes_from(input, result, numbers).
+/// A finished run: its input, its result, and numbers of vertices in both. `Mesh` has a function changes_from(input,
+/// result, numbers).
 template <class Mesh>
 struct EndOfRun {
   const Mesh* input;  ///< null, unless Change::least: others may be in another order, or freed
