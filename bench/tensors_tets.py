@@ -207,7 +207,7 @@ def error_of_barycenters(case, mesh):
 
 
 def gaps(mesh, tensor):
-    """What the two sides of interface faces differ in: crossings of edges, and centers."""
+    """The two sides of interface faces differ by so much of an edge, at most: at crossings of edges, and at centers."""
     weights = mesh.cell_data.get("corner_weights")
     if weights is None:
         return 0.0, 0.0
