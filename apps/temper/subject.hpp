@@ -110,6 +110,17 @@ using SubjectOf =
   return std::string(Triangles::element) + " or " + std::string(Tetrahedra::element);
 }
 
+/// The numbers of a tensor, for errors.
+[[nodiscard]] inline std::string any_tensor() {
+  return "three numbers " + std::string(Triangles::tensor) + ", or for " + std::string(Tetrahedra::elements) +
+         " six numbers " + std::string(Tetrahedra::tensor);
+}
+/// What a tensor is for cells that are not of the first kind, for help.
+[[nodiscard]] inline std::string other_tensors() {
+  return "For " + std::string(Tetrahedra::elements) + " a tensor is " + std::string(Tetrahedra::tensor) +
+         ", and axes are k11,k22,k33. ";
+}
+
 [[nodiscard]] inline auto elements_of(const Mesh& mesh) { return mesh.triangles(); }
 [[nodiscard]] inline auto elements_of(const tets::TetMesh& mesh) { return mesh.tetrahedra(); }
 [[nodiscard]] inline std::size_t n_elements(const Mesh& mesh) { return mesh.n_triangles(); }

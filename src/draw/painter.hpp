@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +49,18 @@ class Painter {
     path.move_to(viewport_.grid(polygon[0]));
     for (std::size_t i = 1; i < polygon.size(); ++i) path.line_to(viewport_.grid(polygon[i]));
     path.close();
+  }
+
+  /// The place in the picture of a visible point that is in the box, or within `radius` of it.
+  [[nodiscard]] std::optional<Vec2> seen(const WeightedPoint& p, double radius = 0) const {
+    const Vec2 at = viewport_.view.at(p);
+    if (!viewport_.view.shows(p) || !meets(at, radius, viewport_.box)) return std::nullopt;
+    return at;
+  }
+  // Dashes distinguish the signs without color.
+  [[nodiscard]] std::string dashes(double width) const {
+    return "stroke-dasharray=\"" + short_number(4 * width / viewport_.unit) + " " +
+           short_number(2 * width / viewport_.unit) + "\" ";
   }
 
   void stroke(const PathText& path, const char* name, const char* color, double width, const char* more = "") {

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
 
 #include "draw/face_lines.hpp"
+#include "draw/marks.hpp"
 #include "draw/painter.hpp"
 #include "draw/text.hpp"
 #include "draw/viewport.hpp"
@@ -18,11 +17,7 @@ namespace temper {
 namespace {
 
 constexpr double kDualTimes = 2.2, kNegativeTimes = 3.5;
-constexpr double kRingWidth = 0.09, kPeriodWidth = 0.1;                       // of the font size
 constexpr double kHatchPeriod = 0.25, kLeastHatch = 0.15, kMostHatch = 0.36;  // of an edge; of the font size
-constexpr double kNearCoincident = 0.05;  // of the mean of the other edges around: nothing to see between the two ends
-constexpr double kRingRadius = 0.35, kDotRadius = 0.28;  // of the font size
-constexpr double kFontPerEdge = 0.22, kLeastFont = 3;
 
 /// The shifts from the mesh to its images that a picture of the domain and its margin shows.
 std::vector<Vec2> shifts_of(const Space& space) {
@@ -35,11 +30,6 @@ std::vector<Vec2> shifts_of(const Space& space) {
     }
   }
   return shifts;
-}
-
-double edge_length(const Mesh& mesh, HalfedgeId h) {
-  const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h), a);
-  return distance(mesh.space(), a, b);
 }
 
 /// The duals of a mesh: its own, or those of its pieces in the planes of tensors, as points of the mesh's space.
@@ -92,10 +82,7 @@ class PanelPainter : public Painter {
     draw_face_lines();
     if (options_.dual && detailed_) draw_dual();
     if (options_.weights && detailed_ && options_.pieces.empty()) draw_weights();
-    mark_fixed();
-    draw_periods();
-    if (options_.near_coincident) ring_near_coincident();
-    if (options_.vertex_numbers) number_vertices();
+    add_marks();
     return std::move(panel_);
   }
 
@@ -159,35 +146,6 @@ class PanelPainter : public Painter {
     for (std::size_t i = 0; i < paths.size(); ++i) fill(paths[i], "region", kRegionColors[i]);
   }
 
-  /// Fades what repeats the domain, and marks the lines at which a period begins again.
-  void draw_periods() {
-    if (!mesh_.space().is_periodic()) return;
-    PathText path;
-    const auto [x, y] = mesh_.space().period();
-    const Box& box = viewport_.clip;
-    const Box domain = {{x > 0 ? 0 : box.low.x, y > 0 ? 0 : box.low.y},
-                        {x > 0 ? x : box.high.x, y > 0 ? y : box.high.y}};
-    const auto line = [&](Vec2 a, Vec2 b) { path.segment(viewport_.grid(a), viewport_.grid(b)); };
-    for (const double at : {domain.low.x, domain.high.x}) {
-      if (x > 0) line({at, domain.low.y}, {at, domain.high.y});
-    }
-    for (const double at : {domain.low.y, domain.high.y}) {
-      if (y > 0) line({domain.low.x, at}, {domain.high.x, at});
-    }
-    PathText beyond;
-    for (const Box& b : {box, domain}) {
-      beyond.move_to(viewport_.grid(b.low));
-      beyond.line_to(viewport_.grid({b.high.x, b.low.y}));
-      beyond.line_to(viewport_.grid(b.high));
-      beyond.line_to(viewport_.grid({b.low.x, b.high.y}));
-      beyond.close();
-    }
-    panel_.svg += "<path class=\"beyond\" fill=\"#ffffff\" fill-opacity=\"0.65\" fill-rule=\"evenodd\" d=\"" +
-                  beyond.text() + "\"/>\n";
-    const double width = kPeriodWidth * viewport_.em;
-    stroke(path, "period", Palette::outline, width, dashes(width).c_str());
-  }
-
   void draw_globe() {
     if (viewport_.view.is_flat()) return;
     PathText path;
@@ -212,6 +170,13 @@ class PanelPainter : public Painter {
     const Panel lines = draw_lines(options_.cells->lines[number_], viewport_, options_);
     panel_.svg += lines.svg;
     panel_.faces = lines.faces;
+  }
+
+  void add_marks() {
+    const Panel marks = draw_marks(mesh_, viewport_, options_);
+    panel_.svg += marks.svg;
+    panel_.fixed = marks.fixed;
+    panel_.rings = marks.rings;
   }
 
   // Dual edges run between the orthocenters on both sides, or from an orthocenter to the weighted midpoint of an edge
@@ -241,13 +206,6 @@ class PanelPainter : public Painter {
     const WeightedPoint corner = mesh_.point(mesh_.corners(t)[0]), image = mesh_.space().image(corner, near);
     return {center.x + (image.x - corner.x), center.y + (image.y - corner.y), center.w};
   }
-  /// The place in the picture of a visible point that is in the box, or within `radius` of it.
-  [[nodiscard]] std::optional<Vec2> seen(const WeightedPoint& p, double radius = 0) const {
-    const Vec2 at = viewport_.view.at(p);
-    if (!viewport_.view.shows(p) || !meets(at, radius, viewport_.box)) return std::nullopt;
-    return at;
-  }
-
   void draw_weights() {
     PathText positive, negative;
     for (VertexId v : mesh_.vertices()) {
@@ -260,72 +218,6 @@ class PanelPainter : public Painter {
     const double width = 1.5 * primal_width();
     stroke(positive, "weight-positive", Palette::positive, width);
     stroke(negative, "weight-negative", Palette::negative, width, dashes(width).c_str());
-  }
-
-  // Dashes distinguish the signs without color.
-  [[nodiscard]] std::string dashes(double width) const {
-    return "stroke-dasharray=\"" + short_number(4 * width / viewport_.unit) + " " +
-           short_number(2 * width / viewport_.unit) + "\" ";
-  }
-
-  /// Vertices of lines and of the boundary are known by these.
-  void mark_fixed() {
-    PathText path;
-    for (const VertexId v : mesh_.vertices()) {
-      if (!mesh_.is_fixed(v) || mesh_.is_frozen(v) || is_on_line(v)) continue;
-      if (const auto at = seen(mesh_.point(v)))
-        path.circle(viewport_.grid(*at), viewport_.steps(kDotRadius * viewport_.em));
-    }
-    panel_.fixed = !path.empty();
-    stroke(path, "halo", "#ffffff", 2 * kRingWidth * viewport_.em);
-    fill(path, "fixed", Palette::outline);
-  }
-  [[nodiscard]] bool is_on_line(VertexId v) const {
-    if (mesh_.is_isolated(v) || mesh_.is_boundary(v)) return true;
-    for (const HalfedgeId h : mesh_.star(v)) {
-      if (mesh_.is_constrained(h)) return true;
-    }
-    return false;
-  }
-
-  void ring_near_coincident() {
-    PathText path;
-    for (HalfedgeId h : mesh_.halfedges()) {
-      if (!mesh_.is_edge_representative(h) || !nearly_collapsed(h)) continue;
-      const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
-      if (const auto middle = seen({0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.w + b.w)})) {
-        path.circle(viewport_.grid(*middle), viewport_.steps(kRingRadius * viewport_.em));
-      }
-    }
-    panel_.rings = !path.empty();
-    stroke(path, "near-coincident", Palette::warning, kRingWidth * viewport_.em);
-  }
-
-  [[nodiscard]] bool nearly_collapsed(HalfedgeId h) const {
-    double around = 0;
-    int edges = 0;
-    for (HalfedgeId side : {h, mesh_.twin(h)}) {
-      if (!side.valid()) continue;
-      for (HalfedgeId other : {Mesh::next(side), Mesh::prev(side)}) {
-        around += edge_length(mesh_, other);
-        ++edges;
-      }
-    }
-    return edge_length(mesh_, h) * edges < kNearCoincident * around;
-  }
-
-  void number_vertices() {
-    const double size = std::clamp(kFontPerEdge * viewport_.edge, kLeastFont, viewport_.em) / viewport_.unit;
-    panel_.svg += "<g class=\"numbers\" font-size=\"" + short_number(size) + "\" fill=\"#000000\" stroke=\"#ffffff\"" +
-                  " stroke-width=\"" + short_number(size / 4) + "\" paint-order=\"stroke\">\n";
-    for (VertexId v : mesh_.vertices()) {
-      const auto place = seen(mesh_.point(v));
-      if (!place) continue;
-      const GridPoint at = viewport_.grid(*place);
-      panel_.svg += "<text x=\"" + std::to_string(at.x + std::llround(size / 4)) + "\" y=\"" +
-                    std::to_string(at.y - std::llround(size / 4)) + "\">" + std::to_string(v.index) + "</text>\n";
-    }
-    panel_.svg += "</g>\n";
   }
 
   const Mesh& mesh_;

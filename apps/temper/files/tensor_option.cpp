@@ -52,8 +52,7 @@ std::vector<double> checked(std::vector<double> k, const std::string& text) {
   } else if (k.size() == 6) {
     if (const auto metric = tets::Metric::of(tensor_from<Tensor3>(k)); !metric) wrong = metric.error();
   } else {
-    throw BadValue(fmt::format("expected three numbers {}, or for tetrahedra six numbers {}; found {} in '{}'",
-                               Triangles::tensor, Tetrahedra::tensor, k.size(), text));
+    throw BadValue(fmt::format("expected {}; found {} in '{}'", any_tensor(), k.size(), text));
   }
   if (wrong) throw BadValue(wrong->message);
   return k;
@@ -163,7 +162,7 @@ std::vector<typename Subject::Tensor> from_data(const TensorOption& option, cons
   return tensors;
 }
 
-/// The tensor of these components. Fails if they are for triangles and the cells are tetrahedra, or the reverse.
+/// The tensor of these components. Fails if they are for other cells.
 template <class Subject>
 typename Subject::Tensor given_tensor(const std::vector<double>& components, const InputOf<Subject>& input) {
   using K = typename Subject::Tensor;
@@ -175,35 +174,13 @@ typename Subject::Tensor given_tensor(const std::vector<double>& components, con
   return tensor_from<K>(components);
 }
 
-/// Names that know the copies of vertices of interfaces.
-class PieceNames final : public tets::InputNames {
- public:
-  PieceNames(std::shared_ptr<const tets::InputNames> whole, IdVector<VertexId, VertexId> first_copies)
-      : whole_(std::move(whole)), first_copies_(std::move(first_copies)) {}
-  [[nodiscard]] std::string point(std::size_t index) const override { return whole_->point(first(index)); }
-  [[nodiscard]] std::string triangle(std::size_t index) const override { return whole_->triangle(index); }
-  [[nodiscard]] std::string point_where(std::size_t index) const override { return whole_->point_where(first(index)); }
-  [[nodiscard]] std::string triangle_where(std::size_t index) const override { return whole_->triangle_where(index); }
-  [[nodiscard]] std::string tetrahedron(std::size_t index) const override { return whole_->tetrahedron(index); }
-  [[nodiscard]] std::string tetrahedron_where(std::size_t index) const override {
-    return whole_->tetrahedron_where(index);
-  }
-
- private:
-  [[nodiscard]] std::size_t first(std::size_t index) const {
-    return index < first_copies_.size() ? first_copies_[VertexId(index)].index : index;
-  }
-  std::shared_ptr<const tets::InputNames> whole_;
-  IdVector<VertexId, VertexId> first_copies_;
-};
-
 /// Warns if dual edges do not cross interfaces at one place.
 template <class Subject>
 void warn_of_crossings(const InputOf<Subject>& input, const typename Subject::Pieces& pieces) {
   const double apart = largest_gap(pieces);
   if (apart <= kSameCrossing) return;
   bool can_keep = true;
-  if constexpr (std::is_same_v<Subject, Tetrahedra>) can_keep = tets::largest_gap_of_edges(pieces) > kSameCrossing;
+  if constexpr (requires { largest_gap_of_edges(pieces); }) can_keep = largest_gap_of_edges(pieces) > kSameCrossing;
   const std::string where = fmt::format(
       "{}: from its two sides, a dual edge crosses an interface between tensors at places that are up to {:.2g} edge "
       "lengths apart",
@@ -218,13 +195,14 @@ void warn_of_crossings(const InputOf<Subject>& input, const typename Subject::Pi
 template <class Subject>
 void name_copies(InputOf<Subject>& input, const typename Subject::Pieces& pieces) {
   if (!pieces.is_cut()) return;
-  input.names = std::make_shared<PieceNames>(input.names, pieces.first_copies);
-  std::vector<std::size_t> points;
+  std::vector<std::size_t> first_copies, points;
   for (const VertexId v : pieces.mesh.vertices()) {
     const VertexId first = pieces.first_copy(v);
+    first_copies.push_back(first.index);
     points.push_back(input.points.empty() ? first.index : input.points[first.index]);
   }
   input.points = std::move(points);
+  input.names = std::make_shared<VertexNames>(input.names, std::move(first_copies), pieces.mesh.n_vertices());
 }
 
 void add_tensor(Command& command, TensorOption& tensor, const std::string& what, CellKinds cells) {
@@ -235,10 +213,7 @@ void add_tensor(Command& command, TensorOption& tensor, const std::string& what,
                     " in the metric of the diffusion tensor K of -div(K grad u). K is KXX,KXY,KYY for all, or "
                     "REGION=KXX,KXY,KYY for each region, repeated. Or K names cell data: one array of three numbers, "
                     "three arrays kxx,kxy,kyy, or k11,k22,angle1 as MODFLOW has them. " +
-                    (cells == CellKinds::triangles
-                         ? ""
-                         : "For tetrahedra a tensor is KXX,KXY,KXZ,KYY,KYZ,KZZ, and axes are k11,k22,k33. ") +
-                    "See docs/howto/anisotropic.md.";
+                    (cells == Triangles::cells ? "" : other_tensors()) + "See docs/howto/anisotropic.md.";
   option.take = [&tensor](const std::string& text) {
     take(tensor, text);
     tensor.spelled += " --tensor " + text;

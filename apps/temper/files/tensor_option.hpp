@@ -13,7 +13,7 @@
 namespace temper::app {
 
 /// The tensors that --tensor names: one for all, one for each region, or data of the cells. A tensor is a list of its
-/// three components, or six for tetrahedra.
+/// components, three of them or six.
 struct TensorOption {
   std::vector<double> one;                                              ///< for all; empty: there is none
   std::vector<std::pair<std::string, std::vector<double>>> of_regions;  ///< by number or name

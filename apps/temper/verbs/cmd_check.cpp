@@ -92,22 +92,25 @@ void add_options(Command& command, CheckSettings& s) {
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
 }
 
-/// Counts and places of a mesh in its own plane, for measures of its pieces.
-void as_in_plane(Quality& measured, const MetricView& view) {
-  const MetricMesh& pieces = view.pieces;
-  for (WorstTriangle& worst : measured.worst) worst.at = pieces.metric(worst.triangle).from_metric(worst.at);
-  const auto& [ends, at] = measured.min_coefficient_place;
-  if (ends[0].valid() && ends[0].index < pieces.mesh.n_vertices() && !pieces.mesh.is_isolated(ends[0]))
-    measured.min_coefficient_place.at = pieces.metric(Mesh::triangle(pieces.mesh.outgoing(ends[0]))).from_metric(at);
-  const std::size_t seams = seams_of(pieces).size();
-  measured.vertices = view.plain.n_vertices();
-  measured.edges -= seams;
-  measured.boundary_edges -= 2 * seams;
+/// The metric of an element at a vertex of pieces.
+const Metric& metric_at(const MetricMesh& pieces, VertexId v) {
+  return pieces.metric(Mesh::triangle(pieces.mesh.outgoing(v)));
 }
-
-/// The metric of a tetrahedron at a vertex of pieces.
 const tets::Metric& metric_at(const tets::MetricMesh& pieces, VertexId v) {
   return pieces.metric(pieces.mesh.incident(v));
+}
+
+/// Takes a place of pieces, if there is one, to the mesh itself.
+template <class Pieces>
+void move_back(auto& place, const Pieces& pieces) {
+  if (const VertexId v = place.vertices[0]; v.valid()) place.at = metric_at(pieces, v).from_metric(place.at);
+}
+
+/// Counts that interfaces make larger in pieces, of links and what is on them.
+void count_once(Quality& measured, const MetricMesh& pieces, const Mesh& /*plain*/) {
+  const std::size_t seams = seams_of(pieces).size();
+  measured.edges -= seams;
+  measured.boundary_edges -= 2 * seams;
 }
 
 /// The number of edges of interfaces in the pieces that are copies of others.
@@ -127,24 +130,27 @@ std::size_t count_copied_edges(const tets::MetricMesh& pieces) {
   return copies.size() - edges.size();
 }
 
-void as_in_plane(tets::Quality& measured, const MetricViewOf<Tetrahedra>& view) {
-  const tets::MetricMesh& pieces = view.pieces;
-  for (tets::WorstTet& worst : measured.worst) worst.at = pieces.metric(worst.tetrahedron).from_metric(worst.at);
-  const auto move_back = [&](auto& place) {
-    if (place.vertices[0].valid()) place.at = metric_at(pieces, place.vertices[0]).from_metric(place.at);
-  };
-  move_back(measured.min_coefficient_place);
-  move_back(measured.min_distance_place);
-  const std::size_t seams = seams_of(pieces).size();
-  measured.vertices = view.plain.n_vertices();
-  const auto outer = boundary_vertices(view.plain);
+void count_once(tets::Quality& measured, const tets::MetricMesh& pieces, const tets::TetMesh& plain) {
+  move_back(measured.min_distance_place, pieces);
+  const auto outer = boundary_vertices(plain);
   measured.inner_vertices = static_cast<std::size_t>(std::count(outer.begin(), outer.end(), std::uint8_t{0}));
+  const std::size_t seams = seams_of(pieces).size();
   measured.edges -= count_copied_edges(pieces);
   measured.faces -= seams;
   measured.boundary_faces -= 2 * seams;
   std::set<std::int32_t> regions;
-  for (const tets::TetId t : view.plain.tetrahedra()) regions.insert(view.plain.region(t));
+  for (const tets::TetId t : elements_of(plain)) regions.insert(plain.region(t));
   measured.regions = regions.size();
+}
+
+/// Counts and places of a mesh itself, for measures of its pieces.
+template <class Subject>
+void as_in_file(typename Subject::Quality& measured, const MetricViewOf<Subject>& view) {
+  for (auto& [element, vertices, at, h_over_l, angle, why] : measured.worst)
+    at = view.pieces.metric(element).from_metric(at);
+  move_back(measured.min_coefficient_place, view.pieces);
+  measured.vertices = view.plain.n_vertices();
+  count_once(measured, view.pieces, view.plain);
 }
 
 class Checks {
@@ -214,13 +220,13 @@ class Checks {
     }
     const std::optional<MetricView> view = take_to_metric(input, s_.tensor);
     Quality measured = quality_in_place(input.loaded.mesh, options_);
-    if (view) as_in_plane(measured, *view);
+    if (view) as_in_file(measured, *view);
     return measured;
   }
   [[nodiscard]] tets::Quality measure(TetInput& input) const {
     const auto view = take_to_metric(input, s_.tensor);
     tets::Quality measured = quality(input.mesh(), {s_.worst, threads_.get()});
-    if (view) as_in_plane(measured, *view);
+    if (view) as_in_file(measured, *view);
     return measured;
   }
   /// Prints or keeps the report, writes it where --write asks for it, and gives the verdict on the requirements.
