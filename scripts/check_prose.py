@@ -5,8 +5,8 @@
     scripts/check_prose.py --list FILE ...  prints each sentence that breaks a rule
     scripts/check_prose.py --self-test      checks that each rule finds a planted sentence
 
-The checker reads prose only: paragraphs of Markdown, comments of C++, comments and docstrings of Python, and the help of the
-program in the pages of its reference. It skips code, tables, headings and the targets of links. A code span counts as one word.
+The checker reads prose only: paragraphs of Markdown, comments of C++, comments and docstrings of Python. It skips code, tables,
+headings and the targets of links. A code span counts as one word. scripts/docs/pages.py has the help of the program read.
 """
 
 import pathlib
@@ -20,13 +20,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 GROUPS = {
     "pages": (["README.md", "CONTRIBUTING.md", "docs/*.md"], 8.0),
     "how-tos": (["docs/howto/*.md", "docs/tutorial/*.md"], 8.0),
-    "help": (["docs/reference/cli/*.md"], 8.0),
     "public headers": (["include/*.hpp"], 11.0),
     "src": (["src/*.cpp", "src/*.hpp"], 12.0),
     "apps": (["apps/*.cpp", "apps/*.hpp"], 12.0),
     "Python": (["python/*.py"], 12.0),
 }  # fmt: skip
 
+HELP_LIMIT = 8.0  # the same for the help of the program
 MOST_WORDS = 30
 
 # Rule: what it forbids, and a sentence that breaks this rule alone.
@@ -67,12 +67,10 @@ def paragraphs(path, text):
 
 
 def paragraphs_of_help(text):
-    """The sentences of the help in a page: those above the usage, and the right column of each list."""
-    found = []
-    for block in re.findall(r"^```text\n(.*?)^```", text, flags=re.S | re.M):
-        help_text = re.sub(r"^(?:Usage|Examples):.*?(?=^\S|\Z)", "", block, flags=re.S | re.M)
-        rows = re.sub(r"^ {2,6}\S.*?(?:  +|$)", "\n\n", help_text, flags=re.M)
-        found += [" ".join(part.split()) for part in re.split(r"\n\s*\n|^\S.*:$", rows, flags=re.M)]
+    """The sentences of a help: those above the usage, and the right column of each list."""
+    help_text = re.sub(r"^(?:Usage|Examples):.*?(?=^\S|\Z)", "", text, flags=re.S | re.M)
+    rows = re.sub(r"^ {2,6}\S.*?(?:  +|$)", "\n\n", help_text, flags=re.M)
+    found = [" ".join(part.split()) for part in re.split(r"\n\s*\n|^\S.*:$", rows, flags=re.M)]
     return [re.sub(r" \(default: .*\)$", "", part) for part in found]
 
 
@@ -96,10 +94,16 @@ def broken_rules(sentence):
     return rules + (["at most 30 words"] if len(sentence.split()) > MOST_WORDS else [])
 
 
-def read(name, is_help=False):
+def read(name):
     path = ROOT / name
-    text = path.read_text(encoding="utf-8")
-    return list(sentences(paragraphs_of_help(text) if is_help else paragraphs(path, text)))
+    return list(sentences(paragraphs(path, path.read_text(encoding="utf-8"))))
+
+
+def wrong_in_help(texts):
+    """The sentences that break a rule, if they are more than the limit allows."""
+    found = [sentence for text in texts for sentence in sentences(paragraphs_of_help(text))]
+    wrong = [sentence for sentence in found if broken_rules(sentence)]
+    return wrong if 100 * len(wrong) > HELP_LIMIT * len(found) else []
 
 
 def check():
@@ -108,7 +112,7 @@ def check():
         names = subprocess.run(["git", "ls-files", *patterns], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
         if group == "pages":
             names = [name for name in names if not name.startswith(("docs/howto/", "docs/tutorial/"))]
-        found = [broken_rules(sentence) for name in names for sentence in read(name, group == "help")]
+        found = [broken_rules(sentence) for name in names for sentence in read(name)]
         share = 100 * sum(map(bool, found)) / max(1, len(found))
         failed = not found or share > limit
         failures += failed
@@ -124,7 +128,7 @@ def self_test():
     wrong += ["comments"] if cpp != ["The first one is here.", "The second one is there."] else []
     page = list(sentences(paragraphs(pathlib.Path("x.md"), "# A title is no sentence\n\n```\nno code is read here.\n```\nSee [the other page](x.md).\n")))
     wrong += ["pages"] if page != ["See the other page."] else []
-    row = "```text\nSays a lot to you.\n\nUsage: temper x\n\nGroup:\n  -a, --all N       The row of one option\n                    has two lines. (default: 2)\n```\n"
+    row = "Says a lot to you.\n\nUsage: temper x\n\nGroup:\n  -a, --all N       The row of one option\n                    has two lines. (default: 2)\n"
     told = list(sentences(paragraphs_of_help(row)))
     wrong += ["help"] if told != ["Says a lot to you.", "The row of one option has two lines."] else []
     print(f"check_prose: {len(RULES) + 4 - len(wrong)} of {len(RULES) + 4} cases of the self-test pass", *wrong, sep="\n  ")
@@ -136,8 +140,7 @@ def main(arguments):
         return self_test()
     if arguments[:1] == ["--list"]:
         for name in arguments[1:]:
-            path = pathlib.Path(name).resolve().relative_to(ROOT)
-            for sentence in read(path) + (read(path, is_help=True) if path.match("docs/reference/cli/*") else []):
+            for sentence in read(pathlib.Path(name).resolve().relative_to(ROOT)):
                 for rule in broken_rules(sentence):
                     print(f"{name}: {rule}: {sentence}")
         return False

@@ -5,9 +5,6 @@ A block of kind `text` right below a block of commands is what that one prints. 
     <!-- not run here: REASON -->                        it is text
     <!-- runs with: NAME[, NAME]; measures: WHAT -->     it needs these; what its numbers are
     <!-- temper ARGUMENTS -->                            of text: what this command prints, which the page does not show
-    <!-- summary of temper VERB -->                      of text: what the verb does, its usage and examples, from its help
-    <!-- options of temper VERB -->                      of text: its options, without those of several verbs
-    <!-- options of several verbs -->                    of text: these
 
 NAME is a program in a block of shell, and a module in one of Python, or `program NAME` or `module NAME`. The first line of a script is its mark.
 """
@@ -20,8 +17,7 @@ from dataclasses import dataclass, replace
 
 BLOCK = re.compile(r"(?:^<!-- (?P<mark>(?!given:)[^\n]*) -->\n)?^(?P<indent> *)```(?P<kind>\w*)[^\n]*\n"
                    r"(?P<text>.*?)^ *```[ \t]*$", re.M | re.S)
-RUN = ("sh", "python", "summary", "options")
-HELP = {"summary of temper ": "summary", "options of ": "options", "temper ": "sh"}  # marks of text that a command prints
+RUN = ("sh", "python")
 DATA = ("json", "xml", "yaml", "csv")  # what is in a file: nothing to run
 
 
@@ -45,10 +41,8 @@ def blocks_of(text: str) -> list[Block]:
         line = text.count("\n", 0, match.start("kind")) + 1
         below = bool(found) and found[-1].kind in RUN and not found[-1].prints and not text[end : match.start()].strip()
         end = match.end()
-        start = next((start for start in HELP if kind == "text" and mark.startswith(start)), None)
-        if start:
-            command = mark if HELP[start] == "sh" else mark.removeprefix(start)
-            found.append(Block(HELP[start], command, line, prints=match.span("text")))
+        if kind == "text" and mark.startswith("temper "):
+            found.append(Block("sh", mark, line, prints=match.span("text")))
             continue
         if kind == "text" and below and not mark:
             found[-1].prints = match.span("text")

@@ -1,4 +1,4 @@
-"""What MkDocs adds to the pages of docs/: the README as the first page, references, and the sources that pages link.
+"""What MkDocs adds to the pages of docs/: the README as the first page, references, help, and the sources that pages link.
 
 Pages are written for GitHub: their links are relative, and may leave docs/. A link to a page of the site goes there; one to
 a folder goes to its README; one to any other file of the repository goes to a page with its text.
@@ -17,6 +17,13 @@ from mkdocs.structure.files import File, InclusionLevel
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import cpp_reference  # noqa: E402
+import records  # noqa: E402
+import verbs  # noqa: E402
+
+try:
+    import names  # needs the module
+except ModuleNotFoundError:
+    names = None
 
 # Pages of the repository outside of docs/, and where they are in the site.
 ELSEWHERE = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md",
@@ -142,8 +149,9 @@ def folder_of(variable):
 def on_config(config):
     """References into the navigation, before MkDocs looks at it."""
     config["generated"] = generated = {}
-    cpp = cpp_reference.pages(ROOT / "include")
-    python = list(python_pages())
+    config["whole"] = whole = "mkdocstrings" in config.plugins  # links.yml has not what needs a build
+    cpp = cpp_reference.pages(ROOT / "include") if whole else {}
+    python = list(python_pages()) if whole else []
     generated.update({f"cpp/{name}.md": text for name, text in cpp.items()})
     generated.update({f"python-reference/{name}": text for name, _, text in python})
     generated["gallery.md"] = gallery_page(folder_of("TEMPER_GALLERY"))
@@ -196,7 +204,20 @@ def on_page_markdown(markdown, page, config, files):
         # GitHub wants a bar in code escaped where it is in a table; here it would show.
         return CODE.sub(lambda code: code[0].replace("\\|", "|"), LINK.sub(moved, piece))
 
+    if config["whole"]:
+        markdown = names.filled(records.filled(verbs.filled(markdown)))
     return "".join(piece if piece.startswith("```") else shown(piece) for piece in FENCE.split(markdown))
+
+
+def on_page_content(html, page, config, files):
+    """The lists that the module puts into its docstrings when it is imported."""
+    if page.file.src_uri.startswith("python-reference/"):
+        from temper import _options
+
+        for name, words in _options.PRESETS.items():
+            rows = "".join(f"<li><code>{word}</code>: {meaning}.</li>" for word, meaning in words.items())
+            html = html.replace(f"<p>[{name}]</p>", f"<ul>{rows}</ul>")
+    return html
 
 
 def on_post_build(config):

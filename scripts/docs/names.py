@@ -1,4 +1,4 @@
-"""Makes docs/reference/names.md, the names of the program, Python and C++ side by side, for pages.py.
+"""Makes the tables of docs/reference/names.md, the names of the program, Python and C++ side by side: hooks.py puts them into the site.
 
 Names come from where they are declared: the help of the program, the module's tables and signatures, the headers. By hand are only
 the rows below, where the three differ.
@@ -165,36 +165,18 @@ def check_energies():
     assert [energy.name for energy in temper.energy.energies()] == re.findall(r"\w+", kinds)
 
 
-def page(program):
-    """The text of the page."""
+def filled(page):
+    """The page with a table below each mark, <!-- names of verbs --> and so on; the program is on PATH."""
+    return MARK.sub(lambda mark: "\n".join([mark[0], *TABLES[mark[1]]("temper"), ""]), page)
+
+
+TABLES = {"verbs": verbs_table, "members": options_table, "other options": other_options}
+MARK = re.compile(r"^<!-- names of (verbs|members|other options) -->\n", re.M)
+
+
+def check(program):
+    """Fails if a name has no row, or a row no name."""
     check_measures(program)
     check_energies()
-    return "\n".join([
-        "# Program, Python, C++ and JSON names side by side",
-        "",
-        "<!-- written by scripts/docs/pages.py --write, from the tables of the program, the module and the library -->",
-        "",
-        "A concept has one name. Options of the program have hyphens between words. Names in Python, JavaScript and JSON have",
-        "underscores. Names that are not listed here are the same in Python and C++. JavaScript has the names of Python. Keys of",
-        "`--require` and of JSON are fields of `Quality` ([Measures](limits.md)). Energies have the names of [Signs and",
-        "symbols](symbols.md#energies): `energy.BP.2` for `--require`, `Quality.energy['BP'][2]` in Python.",
-        "",
-        "## Verbs and functions",
-        "",
-        *verbs_table(program),
-        "",
-        "## Options of `optimize`",
-        "",
-        "All options have one name: in `--set NAME=VALUE` of the program, in `OptimizeOptions` and `optimize(options={NAME: VALUE})` of",
-        "Python, and in JSON. In C++ some are members of a struct:",
-        "",
-        *options_table(program),
-        "",
-        "## Other options",
-        "",
-        "Options of the other verbs are keywords of the same name of their functions: `--attempts` of `temper mesh` is",
-        "`mesh_outline(attempts=…)`. These have another name, or a name in C++:",
-        "",
-        *other_options(program),
-        "",
-    ])  # fmt: skip
+    for table in TABLES.values():
+        table(program)

@@ -26,13 +26,15 @@ import re
 import subprocess
 import sys
 import tempfile
-import textwrap
 import time
 import warnings
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), str(pathlib.Path(__file__).resolve().parent.parent)]
+import check_prose  # noqa: E402
 import prose  # noqa: E402
+import records  # noqa: E402
+import verbs  # noqa: E402
 from blocks import blocks_in, blocks_of, lacking, runs  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -42,7 +44,6 @@ MEASURED = "docs/explanation/measured.md"  # has the table of results
 # Pictures that no page can make, and what makes them.
 DRAWN_ELSEWHERE = {
     **{f"few-points-{i}.svg": "bench/cgshop.py, and `temper draw --before`: the outlines are not in the repository" for i in (1, 2, 3)},
-    "paraview.png": "ParaView: examples/paraview/margins.py with the ring of docs/howto/pyvista.md before and after `temper optimize`",
     "report.jpg": "Chromium shows a report: scripts/docs/report_picture.py",
     "signs.svg": "drawn by hand: symbols, no numbers",
 }
@@ -57,79 +58,6 @@ NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 # Durations, versions and paths are compared by shape.
 SHAPE = re.compile(r"\b\d+(?:\.\d+)? (?:ms|s|min)\b|\b\d+\.\d+\.\d+[\w.+-]*|(?<![\w.])/(?:[\w.+-]+/)+[\w.+-]*")
 IMAGE = re.compile(r"!\[[^\]]*\]\(([^()\s]+)\)|<img [^>]*src=\"([^\"]+)\"")
-VERB_PAGE = """# temper {0}
-
-<!-- summary of temper {0} -->
-```text
-```
-
-## All options
-
-<!-- options of temper {0} -->
-```text
-```
-"""
-
-
-def helped(*words):
-    return subprocess.run(["temper", *words], check=True, capture_output=True, text=True).stdout
-
-
-def summary(verb):
-    """What the verb does, its usage, and examples."""
-    said = helped(*verb.split(), "--help-all") + "\n"
-    parts = [said.partition("\n\nUsage:")[0]]
-    parts += re.findall(r"^(?:Usage:.*?|Examples:\n.*?)(?=\n\n)", said, re.M | re.S)
-    return "\n\n".join(parts) + "\n"
-
-
-def rows_of(verb):
-    """The sections of the help: title -> rows, each with all its lines."""
-    found = {}
-    for section in re.split(r"\n\n(?=\S[^\n]*:\n)", helped(*verb.split(), "--help-all").rstrip()):
-        title, _, rows = section.partition("\n")
-        if title.endswith(":") and not title.startswith(("Usage", "Examples", "Exit codes", "Solvers by name")):  # docs/howto/choose.md has those
-            found.setdefault(title, []).extend(re.split(r"\n+(?=  \S)", rows))
-    return found
-
-
-def set_by_flag(row, sections):
-    """Whether the row is NAME=VALUE for --set, and there is a flag --NAME, too."""
-    name = re.match(r"  ([a-z]\w*)=", row)
-    flag = name and "--" + name[1].replace("_", "-") + " "
-    return bool(flag) and any(each.lstrip().startswith(flag) for rows in sections.values() for each in rows)
-
-
-def options(whose):
-    """Options of a verb, or those with the same words in the help of three verbs or more."""
-    verbs = re.findall(r"^  ([a-z]+)  ", re.search(r"^Verbs:\n(.*?)(?:\n\n|\Z)", helped("--help"), re.M | re.S)[1], re.M)
-    every = [row for verb in verbs if verb != "example" for rows in rows_of(verb).values() for row in rows]
-    common = [row for row in dict.fromkeys(every) if every.count(row) > 2 and "--" in row]
-    if whose == "several verbs":
-        return "\n".join(row for row in common if "--for TARGET" not in row) + "\n"
-    if whose == "temper example":
-        return examples()
-    text, also = [], []
-    for title, rows in rows_of(whose.removeprefix("temper ")).items():
-        own = [row for row in rows if row not in common or "--for TARGET" in row and whose == "temper optimize"]
-        also += [re.search(r"--[a-z][\w-]*", row)[0] for row in rows if row not in own]
-        own = [row for row in own if not set_by_flag(row, rows_of(whose.removeprefix("temper ")))]
-        text += ["\n".join([title, *own])] if own else []
-    text += [textwrap.fill("Options of several verbs: " + ", ".join(also) + ".", 100, break_on_hyphens=False)] if also else []
-    return "\n\n".join(text) + "\n"
-
-
-def examples():
-    """Each example on a line, and below it its options with their defaults."""
-    text = "temper example NAME --help says what each option of NAME means. These are the defaults:\n"
-    for name, what, rows in re.findall(r"^([a-z-]+): ([^\n]*)((?:\n+  .*)*)", helped("example", "--help-all"), re.M):
-        words = []
-        for flag, value, meaning in re.findall(r"^  (--[a-z]+)( \S+)?(.*(?:\n {4,}.*)*)", rows, re.M):
-            default = re.search(r"\(default:\s+(\S+)\)$", meaning)
-            words.append(f"{flag} {default[1]}" if default else flag + value)
-        text += "\n".join(["", f"{name}: {what}", *(["  " + " ".join(words)] if words else []), ""])
-    return text
-
 
 def run_blocks(page, result):
     """Runs the page here, in the current folder, and writes to the file `result` what became of it."""
@@ -153,8 +81,6 @@ def run_blocks(page, result):
         try:
             if block.kind == "python":
                 exec(compile(block.text, page, "exec"), namespace)
-            elif block.kind in ("summary", "options"):
-                printed.write({"summary": summary, "options": options}[block.kind](block.text))
             else:
                 run = subprocess.run(["bash", "-euo", "pipefail", "-c", block.text], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                      stderr=subprocess.STDOUT, text=True, errors="replace")  # fmt: skip
@@ -356,15 +282,26 @@ class Check:
         return set(re.findall(r"^  ([a-z]\w*)=", self.help("optimize", "--help-all") + self.help("optimize", "--help-paper"), re.M))
 
     def verb_pages(self):
-        """Each verb has a page, with its summary and its help."""
+        """Each verb has a page, with the marks where the site has its help; and the help is plain English."""
         for verb in filter(None, self.options):
             page = self.root / "docs/reference/cli" / f"{verb.replace(' ', '-')}.md"
             if self.write and not page.exists():
-                page.write_text(VERB_PAGE.format(verb), encoding="utf-8")
+                page.write_text(verbs.PAGE.format(verb), encoding="utf-8")
             text = page.read_text(encoding="utf-8") if page.exists() else ""
-            for mark in re.findall(r"<!-- .* -->", VERB_PAGE.format(verb)):
-                if mark + "\n```text\n" not in text:
-                    self.say(page.relative_to(self.root).as_posix(), 1, f"has no block with the mark {mark}: put it there")
+            for mark in verbs.MARK.finditer(verbs.PAGE.format(verb)):
+                if mark[0] + "\n" not in text:
+                    self.say(page.relative_to(self.root).as_posix(), 1, f"has no mark {mark[0]}: put it there")
+        for sentence in check_prose.wrong_in_help(self.help(*verb.split(), "--help-all") for verb in self.options if verb):
+            self.say("docs/reference/cli", 1, f"the help says what must be read twice: {sentence}")
+
+    def fill(self, chosen):
+        """What the site takes from the program, below the marks of pages, is there."""
+        os.environ["PATH"] = self.environment["PATH"]
+        for page in chosen:
+            try:
+                records.filled(verbs.filled(page.text))
+            except (KeyError, subprocess.CalledProcessError) as error:
+                self.say(page.name, 1, f"has a mark of something that the program lacks: {error}")
 
     def run(self, chosen):
         wanted = {name for page in self.pages for name in page.figures}
@@ -373,6 +310,7 @@ class Check:
         order = sorted(chosen, key=lambda page: -sum(map(runs, page.blocks)))
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             list(pool.map(lambda page: page.run(self.environment, wanted, 900 if self.clients else 300), order))
+        self.fill(chosen)
         if self.clients:
             for page in chosen:
                 page.pictures = {name: picture for name, picture in page.pictures.items()
@@ -380,7 +318,7 @@ class Check:
             self.compare_table(chosen)
         for page in chosen:
             if page.name == "docs/reference/names.md":
-                self.compare_names(page)
+                self.check_names()
             for line, why in [*page.compare(self.write), *page.last_run(self.write and self.clients)]:
                 self.say(page.name, line, why)
             commands = [(block.line, block.text) for block in page.blocks if block.kind == "sh"]
@@ -413,18 +351,13 @@ class Check:
             if file.name not in shown:
                 self.say(f"docs/figures/{file.name}", 1, "no page shows this picture: remove it")
 
-    def compare_names(self, page):
+    def check_names(self):
         try:
             import names
 
-            text = names.page(self.program)
+            names.check(self.program)
         except Exception as error:  # noqa: BLE001: the tables differ, or the module is missing
-            return self.say(page.name, 1, f"scripts/docs/names.py: {type(error).__name__}: {error}")
-        if self.write:
-            page.path.write_text(text, encoding="utf-8")
-            page.text = text
-        elif text != page.text:
-            self.say(page.name, 1, f"{differing(page.text, text)}: run scripts/docs/pages.py --write")
+            self.say("docs/reference/names.md", 1, f"scripts/docs/names.py: {type(error).__name__}: {error}")
 
     def compare_table(self, chosen):
         """Compares the rows of pages that were run; all others stay what they are."""
@@ -511,8 +444,9 @@ def self_test():
         "a removed option for --set": ("page", "star=1", "stra=1", 3, "--set stra"),
         "text that nothing prints": ("page", "```text", "so:\n\n```text", 14, "text that no command prints"),
         "a program that is not run": ("page", "```sh", "```console", 7, "a block of console is not run"),
-        "a page of a verb without its mark": ("verb", "<!-- options of temper check -->\n", "", 1, "no block with the mark"),
-        "stale help": ("verb", "as JSON", "as XML", 13, "as XML"),
+        "a page of a verb without its mark": ("verb", "<!-- options of temper check -->\n", "", 1, "has no mark"),
+        "a mark of a verb that is not there": ("page", "```text", "<!-- options of temper chek -->\n\n```text", 1, "the program lacks"),
+        "help that is not plain": ("program", "as JSON", "as JSON. The format is the one of the schema.", 1, "read twice"),
         "a number that no benchmark measures": ("page", "and 3.77", "and 3.78", 3, "3.78: no command"),
         "a stale row of the table": ("table", "| 3.77 |", "| 4.77 |", 1, "the page has '4.77'"),
         "a benchmark that fails": ("benchmark", "3.77", "x", 2, "NameError"),
@@ -520,7 +454,6 @@ def self_test():
         "a wrong expression": ("page", "40 / 12", "12 / 40", 5, "which is 0.3"),
         "a page with a client that does not say when": (
             "page", "# A mesh\n", "# A mesh\n\n<!-- runs with: json -->\n```python\n```\n", 1, "last ran"),
-        "an option in the help that the program lacks": ("verb", "--json  as JSON", "--json  as JSON\n  --all  so", 13, "the page has"),
     }
     passed = "## 3.2 In 2023\n\n`11`, [12](a), $13$, 64-bit x86-64, C++20, UTF-16, 2D, Section 5.2, d = 14, 1 − d/ℓ, 19 May 2025, 7.\n"
     assert not list(prose.wrong_numbers(passed, set())), list(prose.wrong_numbers(passed, set()))
@@ -528,11 +461,11 @@ def self_test():
     assert all(list(prose.wrong_numbers(f"so {number}, and\n", set())) for number in looked_up)
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder).resolve()
-        program = root / "build/apps/temper/temper"
-        files = {"page": "docs/howto/a.md", "table": MEASURED, "verb": "docs/reference/cli/check.md",
+        files = {"page": "docs/howto/a.md", "table": MEASURED, "program": "build/apps/temper/temper", "verb": "docs/reference/cli/check.md",
                  "figure": "docs/figures/a.svg", "benchmark": "examples/benchmarks/with_a.py"}  # fmt: skip
         files = {name: root / file for name, file in files.items()}
-        for file in (program, root / "examples/x", *files.values()):
+        program = files["program"]
+        for file in (root / "examples/x", *files.values()):
             file.parent.mkdir(parents=True, exist_ok=True)
         program.write_text(FAKE)
         program.chmod(0o755)
@@ -546,7 +479,6 @@ def self_test():
             files[name].write_text(text)
         assert not found(write=True) and not found(), found()
         good = {name: file.read_text() for name, file in files.items()}
-        assert "Judges a mesh. Then ends.\n\nUsage: temper check IN\n" in good["verb"], good["verb"]
         for what, (name, old, new, line, why) in mistakes.items():
             assert old in good[name], what
             files[name].write_text(good[name].replace(old, new, 1))

@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-"""Writes what follows from the tables of the program: the schema of JSON, the classes of Python, the types of TypeScript, tables of docs/.
+"""Writes what follows from the tables of the program: the schema of JSON, the classes of Python, the types of TypeScript.
 
     records.py PROGRAM           exit 1 and one line a file that is not what the tables say
     records.py --write PROGRAM   writes the files
 
 `PROGRAM --help=tables` prints the tables. schema.json beside this script has the rest of the schema: "fields" in it
-names tables whose fields an object has, besides its own properties. A table of a page follows a mark:
+names tables whose fields an object has, besides its own properties. Pages of docs/ have marks, and in the site a table
+follows each (hooks.py):
 
     <!-- keys of NAME -->                  what the schema has under this name, without measures
     <!-- measures of triangles -->         or "of solvers": those that a community names; or "of tetrahedra"
 """
 
 import decimal
+import functools
 import json
 import keyword
 import pathlib
@@ -231,7 +233,7 @@ def typescript_options(said):
 
 # --- pages -------------------------------------------------------------------------------------------------------
 
-MARK = re.compile(r"(?<=<!-- )(keys|measures) of (\w+)( -->\n\n)(?:\|.*\n)*\n*")
+MARK = re.compile(r"^<!-- (keys|measures) of (\w+) -->\n", re.M)
 MOST_KEYS = 8  # of an object in the row of another key
 
 
@@ -258,25 +260,30 @@ def table_of_measures(whose, said):
     return made if whose == "solvers" else [cells[:2] + cells[3:] for cells in made]
 
 
-def page(text, made, said):
-    def table(match):
-        rows = table_of_keys(match[2], made, said) if match[1] == "keys" else table_of_measures(match[2], said)
-        rows = [[cell.replace("|", "\\|") for cell in row] for row in rows]
-        lines = [f"| {' | '.join(row)} |" for row in rows]
-        return f"{match[1]} of {match[2]}{match[3]}" + "\n".join([lines[0], "|" + "-|" * len(rows[0]), *lines[1:]]) + "\n\n"
+def tables_of(program):
+    return json.loads(subprocess.run([program, "--help=tables"], check=True, capture_output=True, text=True, encoding="utf-8").stdout)
 
-    return MARK.sub(table, text).rstrip() + "\n"
+
+@functools.cache
+def table(kind, name):
+    """Of a mark, from the program on PATH."""
+    said = tables_of("temper")
+    rows = table_of_keys(name, json.loads(schema(said["reports"])), said) if kind == "keys" else table_of_measures(name, said)
+    lines = [f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in rows]
+    return "\n".join([lines[0], "|" + "-|" * len(rows[0]), *lines[1:]]) + "\n"
+
+
+def filled(page):
+    """The page with a table below each mark."""
+    return MARK.sub(lambda mark: f"{mark[0]}\n{table(mark[1], mark[2])}", page)
 
 
 def main(program, write=False):
-    said = json.loads(subprocess.run([program, "--help=tables"], check=True, capture_output=True, text=True, encoding="utf-8").stdout)
+    said = tables_of(program)
     tables = said["reports"]
     looks = set(re.findall(r"^class (\w+)", (ROOT / "python/temper/_looks.py").read_text(encoding="utf-8"), re.M))
-    made = schema(tables)
-    pages = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs/reference").rglob("*.md"))}
     files = {
-        **{name: page(text, json.loads(made), said) for name, text in pages.items()},
-        f"docs/schema/temper-{VERSION}.schema.json": made,
+        f"docs/schema/temper-{VERSION}.schema.json": schema(tables),
         "python/temper/_reports.py": python(tables, looks),
         "web/npm/src/records.ts": typescript(tables),
         "web/npm/src/options.ts": typescript_options(said),
