@@ -138,7 +138,7 @@ def opening_of(header):
 
 
 def pages(include):
-    """{name of the header: Markdown}"""
+    """{header below temper/: Markdown}; what users include comes first."""
     found = {}
     with tempfile.TemporaryDirectory() as output:
         doxyfile = DOXYFILE.format(include=include, output=output)
@@ -154,8 +154,10 @@ def pages(include):
                         place = member.find("location")
                         found.setdefault(place.get("file"), []).append((int(place.get("line")), entry(member, 2)))
     result = {}
-    for header in sorted(pathlib.Path(include, "temper").rglob("*.hpp")):
-        name = f"temper/{header.name}"
-        entries = dict.fromkeys(text for _, text in sorted(found.get(name, [])))
-        result[header.name] = f"# {header.name}\n\n{opening_of(header)}\n\n```cpp\n#include \"{name}\"\n```\n\n" + "\n\n".join(entries)
+    for folder in ("", "tets", "detail"):
+        for header in sorted(pathlib.Path(include, "temper", folder).glob("*.hpp")):
+            name = header.relative_to(include).as_posix()
+            entries = dict.fromkeys(text for _, text in sorted(found.get(name, [])))
+            words = [f"# {name}", opening_of(header), f"```cpp\n#include \"{name}\"\n```", *entries]
+            result[name.removeprefix("temper/")] = "\n\n".join(words)
     return result
