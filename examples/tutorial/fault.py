@@ -84,7 +84,7 @@ def draw_cells(picture, grids):
 
 def draw_results(picture, mesh, heads, flows, reference):
     """Heads in all cells, and the flow through the barriers against the number of cells: `flows` has them by name."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4), width_ratios=[1.6, 1])
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.8), width_ratios=[1.5, 1], layout="constrained")
     cells = PolyCollection(temper.power_cells(mesh).polygons(), array=heads, edgecolor="face", linewidth=0.2)
     left.add_collection(cells)
     left.plot(*line.T, color="black", linewidth=1.5)
@@ -96,7 +96,7 @@ def draw_results(picture, mesh, heads, flows, reference):
     right.axhline(reference, color="gray", linewidth=1, label="reference")
     for (name, found), marker in zip(flows.items(), "o^s"):
         right.semilogx(*np.array(found).T, marker + "-", label=name)
-    right.set(xlabel="cells", title="Flow through the fault, m³ per day")
+    right.set(xlabel="cells", title="Flow through the fault\nin m³ per day")
     right.legend()
-    figure.savefig(picture, dpi=120, bbox_inches="tight")
+    figure.savefig(picture, dpi=100)
     plt.close(figure)

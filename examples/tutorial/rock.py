@@ -48,19 +48,18 @@ def solved(grids, scheme):
     return model.pressure([grid]).value(model.equation_system), -1000 * flux[model.domain_boundary_sides(grid).west].sum()
 
 
-def draw(file, cuts, name, fracture=None, **options):
-    """Pictures next to each other: the southern half is cut off, values color the rest, and the fracture of a mesh is orange."""
-    plotter = pyvista.Plotter(off_screen=True, shape=(1, len(cuts)), window_size=(480 * len(cuts), 340), border=False)
-    for i, (title, points, tetrahedra, values) in enumerate(cuts):
-        grid = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: np.array(tetrahedra)}, np.array(points))
-        grid.cell_data[name] = values
-        plotter.subplot(0, i)
-        bar = {"title": name, "vertical": False, "position_x": 0.25, "width": 0.5, "color": "black", "n_labels": 3}
-        plotter.add_mesh(grid.clip("-y", crinkle=True), scalars=name, show_edges=True, lighting=False, scalar_bar_args=bar, **options)
-        if fracture is not None:
-            faces = pyvista.make_tri_mesh(np.array(fracture.points), np.array(fracture.tagged_faces))
-            plotter.add_mesh(faces, color="orange", show_edges=True, lighting=False)
-        plotter.add_text(title, font_size=10, color="black")
-        plotter.camera_position = [(50, -112, 66), (50, 30, 13), (0, 0, 1)]
+def draw(file, cut, name, fracture, **options):
+    """The southern half is cut off, values color the rest, and the fracture of a mesh is orange."""
+    points, tetrahedra, values = cut
+    plotter = pyvista.Plotter(off_screen=True, window_size=(760, 380))
+    grid = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: np.array(tetrahedra)}, np.array(points))
+    grid.cell_data[name] = values
+    bar = {"title": name + "\n", "vertical": False, "position_x": 0.25, "position_y": 0.03, "width": 0.5, "color": "black",
+           "n_labels": 3, "fmt": "%.0f", "title_font_size": 18, "label_font_size": 16}  # fmt: skip
+    shown = {"show_edges": True, "edge_color": "#6b7280", "line_width": 0.5, "lighting": False}
+    plotter.add_mesh(grid.clip("-y", crinkle=True), scalars=name, scalar_bar_args=bar, **shown, **options)
+    faces = pyvista.make_tri_mesh(np.array(fracture.points), np.array(fracture.tagged_faces))
+    plotter.add_mesh(faces, color="orange", **shown)
+    plotter.camera_position = [(50, -96, 56), (50, 30, 10), (0, 0, 1)]
     plotter.screenshot(file)
     plotter.close()
