@@ -5,7 +5,7 @@
 //
 // Counts of messages are exact, whatever the machine. Times are of the processor's clock. Ranks are threads of this
 // process, each with a mesh of its own, and need no processor each. Prints tables of Markdown: see
-// docs/internals/ranks.md.
+// docs/internals/performance.md.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

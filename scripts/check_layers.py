@@ -186,11 +186,10 @@ PICTURE = re.compile(r"(<!-- layers: drawn by scripts/check_layers.py --picture 
 
 
 def picture():
-    """The layers as a wall, and for each layer those it stands on: what they stand on it may include, too."""
+    """The layers as a wall."""
     width = 100  # two more with the edges
-    reach, row = {}, {}
+    row = {}
     for layer, below in LAYERS.items():  # the table goes upwards
-        reach[layer] = set(below).union(*(reach[b] for b in below))
         row[layer] = max((row[b] + 1 for b in below), default=0)
     rows = [["apps/temper", "python", "gallery"]]
     for height in range(max(row.values()), -1, -1):
@@ -199,10 +198,7 @@ def picture():
     for bricks in rows:
         wall = "|".join(brick.center(width // len(bricks)) for brick in bricks)
         lines += ["|" + wall.center(width) + "|", "+" + "-" * width + "+"]
-    lines += ["", "* a library of its own; all others are the core", "", "apps/temper, python, gallery  on the public headers"]
-    for layer in reversed(LAYERS):
-        stands_on = [b for b in LAYERS[layer] if not any(b in reach[other] for other in LAYERS[layer])]
-        lines += [f"{layer:<30}on {', '.join(stands_on)}"] if stands_on else []
+    lines += ["", "* a library of its own; all others are the core"]
     return "\n".join(lines) + "\n"
 
 

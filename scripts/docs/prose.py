@@ -3,7 +3,7 @@
 A number of prose is right when a number of the page's commands, or of what they print, rounds to the digits that it shows.
 Whole numbers up to ten are free. Others must be given, with a reason or as an expression of numbers that are printed:
 
-    <!-- given: 90 (right angle), 9.81 (https://…), 1.8 = 3.77e-2 / 2.08e-2 -->
+    <!-- given: 90 (right angle), 9.81, 1013 (https://…), 1.8 = 3.77e-2 / 2.08e-2 -->
 """
 
 import ast
@@ -20,7 +20,7 @@ UNITS = {"%": 0.01, "km": 1e3, "cm": 1e-2, "mm": 1e-3, "ms": 1e-3, "kB": 1e3, "M
          "thousand": 1e3, "million": 1e6, "billion": 1e9}  # fmt: skip
 UNIT = re.compile(r"[ \n]?(%|°|(?:km|cm|mm|ms|kB|MB|GB|thousand|million|billion)\b)")
 GIVEN = re.compile(r"<!-- given: (.*?) -->", re.S)
-GIVE = re.compile(r"([\d.,]+(?:e[-+]?\d+)?)\s*(?:\((?P<reason>[^()]+(?:\([^()]*\)[^()]*)*)\)|= (?P<formula>[-+*/() \d.e]+))(?:,\s*|$)")
+GIVE = re.compile(r"(\d[\d.,]*(?:e[-+]?\d+)?(?:,\s+\d[\d.,]*(?:e[-+]?\d+)?)*)\s*(?:\((?P<reason>[^()]+(?:\([^()]*\)[^()]*)*)\)|= (?P<formula>[-+*/() \d.e]+))(?:,\s*|$)")
 MONTH = r"(?:January|February|March|April|May|June|July|August|September|October|November|December)"
 NOT_PROSE = [re.compile(pattern, re.M | re.S) for pattern in (
     r"^(?P<fence> *)```.*?^ *```[ \t]*$", r"<!-- written by .*?<!-- end -->", r"<!-- ([\w ]+) -->.*?<!-- /\1 -->", r"<!--.*?-->",
@@ -86,14 +86,16 @@ def wrong_numbers(text, known):
         if rest:
             yield at, f"'{rest}' gives no reason: write NUMBER (REASON) or NUMBER = EXPRESSION"
         for give in GIVE.finditer(comment[1]):
-            number, formula = NUMBER.fullmatch(give[1]), give["formula"] or ""
-            value, unit = value_of(number) if number else (0, 0)
-            if formula and not rounds_to(value, unit, [abs(computed(formula))]):
-                yield at, f"{give[1]} is given as {formula.strip()}, which is {computed(formula):.4g}: correct it"
+            formula = give["formula"] or ""
+            for number in re.split(r",\s+", give[1]):
+                match = NUMBER.fullmatch(number)
+                value, unit = value_of(match) if match else (0, 0)
+                if formula and not rounds_to(value, unit, [abs(computed(formula))]):
+                    yield at, f"{number} is given as {formula.strip()}, which is {computed(formula):.4g}: correct it"
+                given[value] = (number, at)
             for part in numbers_in(formula) - known:
                 if part > 10 or part != int(part):
                     yield at, f"{part:g} in the expression of {give[1]} is printed by no command: correct it"
-            given[value] = (give[1], at)
     prose, wrong = text, {}
     for pattern in NOT_PROSE:
         prose = blanked(prose, pattern)
