@@ -61,7 +61,7 @@ namespace {
 
 constexpr double kScriptSize = 0.7;                     // font of raised and lowered parts
 constexpr double kRaise = -0.38, kLower = 0.22;         // of the font size
-constexpr double kLeastFixed = 1e-3, kMostFixed = 1e5;  // numbers outside get a power of ten
+constexpr double kLeastFixed = 1e-3, kMostFixed = 1e6;  // numbers outside get a power of ten
 
 constexpr std::string_view kMinus = "\xe2\x88\x92";
 
