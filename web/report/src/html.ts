@@ -31,7 +31,9 @@ export function number(value: unknown, digits = 4): string {
   if (Number.isInteger(x) && Math.abs(x) < 1e15) return x.toLocaleString('en').replace('-', '−');
   const size = Math.abs(x);
   const text = size >= 1e6 || size < 1e-4 ? x.toExponential(digits - 1) : String(Number(x.toPrecision(digits)));
-  return text.replace(/e\+?/, '·10^').replace('-', '−').replace('^-', '^−');
+  const [mantissa, exponent] = text.split('e');
+  const raised = (exponent ?? '').replace('+', '').replace(/./g, (c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'.charAt(Number(c))));
+  return mantissa.replace('-', '−') + (raised && `·10${raised}`);
 }
 
 export const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
