@@ -12,17 +12,15 @@ gmsh, meshkernel, triangle and tetgen of the Python package index, and the modul
     after, without weights    the same after temper.optimize(target="mpas"), which takes and gives no weights, for triangles
 """
 
-import argparse
 import json
 import pathlib
-import re
 
 import numpy as np
+import page_table
 import temper
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs/compared.md"
-TABLE = re.compile(r"(?<=<!-- written by bench/other_meshers.py -->\n)(?:\|.*\n)*(?=<!-- end -->)")
 SIZE, SPACING = 120.0, 0.2  # of the valley, in meters; of the ball
 
 
@@ -137,14 +135,5 @@ def table():
     return "".join(lines)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true")
-    write = parser.parse_args().write
-    made = table()
-    if write:
-        PAGE.write_text(TABLE.sub(lambda _: made, PAGE.read_text(encoding="utf-8")), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    page_table.main(__doc__, PAGE, table)

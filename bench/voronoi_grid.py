@@ -12,14 +12,13 @@ takes triangles with angles of at least 30 degrees, as its own examples do. The 
     seconds       of the processor for the whole grid, the quickest of three runs
 """
 
-import argparse
 import json
 import pathlib
-import re
 import resource
 import tempfile
 
 import numpy as np
+import page_table
 import shapely
 import temper
 
@@ -27,7 +26,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs/howto/modflow.md"
 ROUNDING = 1e-4  # of the lengths of faces: corners are rounded to 1e-8 of the extent
 ROUNDS = 3
-TABLE = re.compile(r"(?<=<!-- written by bench/voronoi_grid.py -->\n)(?:\|.*\n)*(?=<!-- end -->)")
 
 
 def valley():
@@ -129,14 +127,5 @@ def table():
     return "\n".join(lines) + "\n"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true")
-    write = parser.parse_args().write
-    made = table()
-    if write:
-        PAGE.write_text(TABLE.sub(lambda _: made, PAGE.read_text(encoding="utf-8")), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    page_table.main(__doc__, PAGE, table)
