@@ -37,15 +37,16 @@ LAYERS = {
     "quality": _BELOW + ["size", "topology", "energy", "regularity", "feasibility"],
     "explain": _BELOW + ["topology", "energy", "regularity", "feasibility", "quality"],
     "dec": _BELOW + ["topology", "energy", "regularity"],
+    "transfer": _BELOW + ["location", "dec"],
     "draw": _BELOW + ["topology", "energy", "regularity", "quality", "dec"],
     "generate": _BELOW + ["topology", "energy", "regularity", "projection"],
     "mesher": _BELOW + ["size", "topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
     # The tables of reports, for JSON, Python, npm and the schema.
     "report": _BELOW + ["size", "energy", "feasibility", "optimize", "quality", "explain", "dec"],
     # A library of its own, with the rules of the core: meshes of tetrahedra, on tables, reports and linear programs.
-    "tets": _BELOW + ["regularity", "feasibility", "quality", "explain", "dec", "draw", "optimize", "report"],
+    "tets": _BELOW + ["regularity", "feasibility", "quality", "explain", "dec", "transfer", "draw", "optimize", "report"],
     # A library of its own: sees the public headers of the core and of tets, and no other folder of src/.
-    "io": _BELOW + ["projection", "location", "size", "feasibility", "quality", "dec", "mesher", "tets"],
+    "io": _BELOW + ["projection", "location", "size", "feasibility", "quality", "dec", "transfer", "mesher", "tets"],
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "mpi": ["base"],

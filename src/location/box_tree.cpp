@@ -28,6 +28,8 @@ std::pair<double, double> nearest_on_segment(Vec3 a, Vec3 b, Vec3 p) {
   return {t, squared_length(ap - t * ab)};
 }
 
+}  // namespace
+
 std::vector<TriangleId> along_curve(const Mesh& mesh) {
   Vec3 low{kInfinite, kInfinite, kInfinite}, high = -1 * low;
   for (const VertexId v : mesh.vertices()) {
@@ -49,8 +51,6 @@ std::vector<TriangleId> along_curve(const Mesh& mesh) {
   for (const auto& [key, t] : keyed) triangles.push_back(t);
   return triangles;
 }
-
-}  // namespace
 
 /// On the sphere the box also covers the part of the sphere above the triangle.
 BoxTree::Box BoxTree::box_of(const Mesh& mesh, TriangleId t) {

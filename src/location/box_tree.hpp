@@ -12,6 +12,9 @@
 
 namespace temper {
 
+/// The triangles of a mesh along a Hilbert curve through their middles.
+[[nodiscard]] std::vector<TriangleId> along_curve(const Mesh& mesh);
+
 /// The point of a triangle that is nearest to a given point.
 struct NearestPoint {
   TriangleId triangle;

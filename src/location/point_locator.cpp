@@ -44,7 +44,8 @@ TriangleId walk(const Mesh& mesh, const WeightedPoint& p, TriangleId from) {
     HalfedgeId exit;
     for (int k = 0; k < 3 && !exit.valid(); ++k) {
       const HalfedgeId h = Mesh::halfedge(t, k);
-      if (h == entered) continue;  // p is on this side of it
+      // p is on this side of it; half a period away the other triangle may have seen another image of p.
+      if (h == entered && !mesh.space().is_periodic()) continue;
       if (seen.side(static_cast<std::size_t>(k)) == Sign::negative) exit = h;
     }
     if (!exit.valid()) return t;

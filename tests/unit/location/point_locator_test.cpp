@@ -52,6 +52,18 @@ TEST(Place, IsTheMeanOfItsCornersInAMeshWithAHole) {
   EXPECT_GT(inside, 300);
 }
 
+TEST(Place, InAPeriodicPlaneDoesNotDependOnWhereTheWalkBegins) {
+  // Half a period away, two neighbors see different images of a point.
+  const Mesh mesh = *random_periodic({.vertices = 60});
+  const PointLocator finder(mesh);
+  Noise noise(4);
+  for (int i = 0; i < 40; ++i) {
+    const WeightedPoint p = mesh.space().in_domain({noise(), noise(), 0});
+    const TriangleId there = finder.find(p).triangle;
+    for (const TriangleId near : mesh.triangles()) ASSERT_EQ(finder.find(p, near).triangle, there);
+  }
+}
+
 TEST(Place, OfAVertexIsThatVertexAndOfTheMiddleOfAnEdgeIsThatEdge) {
   const Mesh mesh = *sheared_grid({.nx = 8, .ny = 8, .shear = 0.5});  // midpoints of edges are exact here
   const PointLocator finder(mesh);
