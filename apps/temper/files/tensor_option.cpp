@@ -44,8 +44,8 @@ K tensor_from(std::span<const double> k) {
     return {k[0], k[1], k[2], k[3], k[4], k[5]};
 }
 
-/// The components, if they are those of a tensor.
-std::vector<double> checked(std::vector<double> k, const std::string& text) {
+/// The components, if they are those of a tensor. `text` is what the user gave, `region` the name in it.
+std::vector<double> checked(std::vector<double> k, const std::string& text, const std::string& region = {}) {
   std::optional<InputError> wrong;
   if (k.size() == 3) {
     if (const auto metric = Metric::of(tensor_from<Tensor>(k)); !metric) wrong = metric.error();
@@ -54,7 +54,7 @@ std::vector<double> checked(std::vector<double> k, const std::string& text) {
   } else {
     throw BadValue(fmt::format("expected {}; found {} in '{}'", any_tensor(), k.size(), text));
   }
-  if (wrong) throw BadValue(wrong->message);
+  if (wrong) throw BadValue(region.empty() ? wrong->message : fmt::format("region {}: {}", region, wrong->message));
   return k;
 }
 
@@ -66,7 +66,8 @@ void take(TensorOption& option, const std::string& text) {
     one_kind(!option.one.empty() || !option.data.empty());
     auto numbers = numbers_of(separated(std::string_view(text).substr(equals + 1)));
     if (!numbers) throw BadValue(fmt::format("expected REGION={}, found '{}'", Triangles::tensor, text));
-    option.of_regions.emplace_back(text.substr(0, equals), checked(*std::move(numbers), text));
+    const std::string region = text.substr(0, equals);
+    option.of_regions.emplace_back(region, checked(*std::move(numbers), text, region));
     return;
   }
   one_kind(option.given());

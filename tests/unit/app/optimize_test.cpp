@@ -179,7 +179,7 @@ TEST_F(Optimize, TensorsThatDoNotFitAreTold) {
       "expected three numbers KXX,KXY,KYY, or for tetrahedra six numbers KXX,KXY,KXZ,KYY,KYZ,KZZ; found 2 in '0=1,2'"));
   EXPECT_TRUE(contains(refused({"--tensor", "k"}), "--tensor: there are no cell data 'k' of three numbers"));
   EXPECT_TRUE(contains(refused({"--tensor", "k11,k22,angle1"}), "there are no cell data 'k11' of one number"));
-  EXPECT_TRUE(contains(refused({"--tensor", "0=1,3,1"}), "expected a positive definite tensor"));
+  EXPECT_TRUE(contains(refused({"--tensor", "0=1,3,1"}), "region 0: tensor: expected a positive definite tensor"));
 }
 
 TEST_F(Optimize, TakesTensorsFromCellDataAsMODFLOWHasThem) {
