@@ -85,9 +85,11 @@ struct OptimizeReport : RunReport {
 /// For a star the run then lowers its HOT energy (src/tets/energy/hot.hpp), and makes no tetrahedron bad.
 ///
 /// With OptimizeOptions::tetrahedra_tensors all this is in the metrics of the tensors (temper/tets/tensor.hpp), and the
-/// report, too. Where tensors are no multiples of each other, vertices keep their place, and their weights keep the
-/// equations of interfaces. The input's weights there become 0 unless they keep them. One linear program at the end may
-/// find better ones. Error also: BoundaryVertices::split with several tensors.
+/// report, too. Interfaces are where tensors are no multiples of each other. Their vertices keep their place. If they
+/// may slide, up to five runs follow each other while tetrahedra are bad, and between runs these vertices slide on both
+/// sides. Weights keep the equations of interfaces. The input's weights there become 0 unless they keep them, and if
+/// vertices slide. A linear program at the end may find better ones. The result is the best mesh of all. Error also:
+/// BoundaryVertices::split with several tensors.
 ///
 /// Every tetrahedron stays positive. The result never has more tetrahedra with outside orthocenters than the input.
 /// Options that are out of range, for triangles alone or contradict each other are an error, which leaves the mesh

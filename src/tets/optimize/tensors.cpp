@@ -1,24 +1,79 @@
 #include "tets/optimize/tensors.hpp"
 
-#include <string>
+#include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "base/sort_unique.hpp"
-#include "feasibility/demand.hpp"
-#include "temper/detail/criterion.hpp"
-#include "temper/feasibility.hpp"
+#include "optimize/run/run_in_pieces.hpp"
 #include "temper/tets/tensor.hpp"
 #include "temper/tets/weights.hpp"
+#include "tets/optimize/seam_slide.hpp"
 #include "tets/optimize/violations.hpp"
 
 namespace temper::tets {
 namespace {
 
-// Linear programs of larger meshes are about the neighborhoods of bad tetrahedra alone.
-constexpr std::size_t kWhole = 500;
-// Difference of crossings up to which weights keep the equations of interfaces: rounding of a file.
-constexpr double kSameCrossing = 1e-9;
+/// The parts of a run in pieces that are of tetrahedra.
+struct Tetrahedra {
+  using Mesh = TetMesh;
+  using Pieces = MetricMesh;
+  using Numbers = Origins;
+  using Hooks = OptimizeHooks;
+  using Report = OptimizeReport;
+  using BestSoFar = tets::BestSoFar;
+  using BestListener = tets::BestListener;
+  using Run = PiecesRun;
+  static constexpr bool kTriesWellCentered = false;  // the repairs of a run did
+  static constexpr BoundaryVertices kChangesSeams = BoundaryVertices::slide;
+  using Faults = std::pair<std::size_t, std::size_t>;
+
+  const OptimizeOptions& options;
+  const OptimizeHooks& hooks;
+  const PiecesRun& run_there;
+
+  static auto& numbers_of(auto& found) { return found.origins; }
+  static auto& vertices(auto& numbers) { return numbers.vertices; }
+  static auto& tensors_of(OptimizeReport& report) { return report.tetrahedra_tensors; }
+  static Origins before_both(const Origins& last, const Origins& before) {
+    return {numbers_before_both(last.vertices, before.vertices), numbers_before_both(last.faces, before.faces),
+            numbers_before_both(last.lines, before.lines)};
+  }
+  static std::array<VertexId, 3> vertices_of(const TetMesh& mesh, HalffaceId h) { return mesh.vertices(h); }
+
+  Expected<OptimizeReport> run(TetMesh& there, const std::vector<VertexId>& frozen) const {
+    return run_there(there, {options, hooks, frozen});
+  }
+
+  [[nodiscard]] std::vector<TetId> bad(const TetMesh& mesh, Criterion criterion) const {
+    const Draft draft(mesh, IdVector<VertexId, Mobility>(mesh.n_vertices()));
+    return violating(draft, criterion, hooks.executor);
+  }
+  /// Tetrahedra at violations of the criterion, then those that are not well-centered.
+  [[nodiscard]] Faults faults_of(const TetMesh& mesh) const {
+    return {bad(mesh, criterion_of(options.scheme)).size(), bad(mesh, Criterion::well_centered).size()};
+  }
+  static std::size_t reported(const Faults& faults) { return faults.first; }
+  [[nodiscard]] static double largest_gap(const MetricMesh& pieces) { return largest_gap_of_edges(pieces); }
+
+  static std::optional<Origins> change_seams(MetricMesh& /*pieces*/) { return std::nullopt; }
+  /// Lets vertices of interfaces slide while tetrahedra are bad.
+  template <class Whole, class MustStop>
+  std::optional<Origins> change_seams_at_bad(MetricMesh& pieces, const Whole& whole, const MustStop& must_stop) const {
+    if (faults_of(pieces.mesh).first == 0) return std::nullopt;
+    const TetMesh joined = whole();
+    if (joined.n_tetrahedra() == 0 || !slide_seams(pieces, joined, options, must_stop)) return std::nullopt;
+    return Origins();
+  }
+
+  static bool becomes_regular(TetMesh& /*mesh*/) { return true; }  // that is among the criteria
+  /// Sets all weights to zero if that leaves fewer bad tetrahedra.
+  void settle_weights(TetMesh& mesh) const {
+    TetMesh zero = mesh;
+    for (const VertexId v : zero.vertices()) zero.set_weight(v, 0);
+    if (faults_of(zero) < faults_of(mesh)) mesh = std::move(zero);
+  }
+};
 
 Expected<MetricMesh> pieces_of(const TetMesh& mesh, const OptimizeOptions& options) {
   const std::vector<Tensor3>& tensors = options.tetrahedra_tensors;
@@ -32,119 +87,20 @@ Expected<MetricMesh> pieces_of(const TetMesh& mesh, const OptimizeOptions& optio
   return mapped(mesh, *metrics, options.corner_weights);
 }
 
-/// The vertices of interfaces.
-std::vector<VertexId> interface_vertices(const MetricMesh& pieces) {
-  std::vector<VertexId> all;
-  for (const SeamFace& seam : seams_of(pieces)) {
-    for (const HalffaceId h : {seam.one, seam.other}) {
-      for (const VertexId v : pieces.mesh.vertices(h)) all.push_back(v);
-    }
-  }
-  sort_unique(all);
-  return all;
-}
-
-/// The run of a mesh in pieces.
-class RunInMetrics {
- public:
-  RunInMetrics(const TetMesh& original, MetricMesh pieces, const OptimizeOptions& options, const OptimizeHooks& hooks)
-      : original_(original), first_(std::move(pieces)), now_(first_), options_(options), hooks_(hooks) {
-    options_.tetrahedra_tensors.clear();
-    options_.corner_weights.clear();
-    if (hooks.best_so_far) listen(hooks.best_so_far);
-  }
-
-  Expected<OptimizeReport> run(const PiecesRun& run_there) {
-    const bool comes_back = options_.change == Change::least && n_bad(now_.mesh) == 0;
-    const bool goes_on = first_.is_cut() && !comes_back;
-    if (goes_on && largest_gap_of_edges(now_) > kSameCrossing) flatten();
-    const std::vector<VertexId> frozen = interface_vertices(now_);
-    TetMesh there = now_.mesh;
-    OptimizeReport report = run_there(there, {options_, hooks_, frozen});
-    now_ = with_mesh(now_, std::move(there), report.origins.vertices);
-    if (goes_on && !stopped_early(report.stopped)) reweigh(report);
-    auto whole = mapped_back(now_, original_, first_, report.origins.vertices);
-    if (!whole) return whole.error();
-    report.origins.vertices = std::move(whole->vertices);
-    report.corner_weights = std::move(whole->corner_weights);
-    report.tetrahedra_tensors = std::move(whole->tensors);
-    count_vertices(report, report.origins.vertices, original_.n_vertices());
-    result_ = std::move(whole->mesh);
-    return report;
-  }
-  /// The mesh in its own space, after a run.
-  [[nodiscard]] TetMesh result() { return std::move(result_); }
-
- private:
-  void listen(const BestListener& listener) {
-    hooks_.best_so_far = [this, listener](const auto& best) {
-      listener([&](const auto& use) {
-        best([&](const BestSoFar& found) {
-          const MetricMesh there = with_mesh(now_, found.mesh, found.origins.vertices);
-          auto whole = mapped_back(there, original_, first_, found.origins.vertices);
-          if (whole) use({whole->mesh, {whole->vertices, found.origins.faces, found.origins.lines}});
-        });
-      });
-    };
-  }
-
-  [[nodiscard]] std::size_t n_bad(const TetMesh& mesh) const {
-    const Draft draft(mesh, IdVector<VertexId, Mobility>(mesh.n_vertices()));
-    return violating(draft, criterion_of(options_.scheme), hooks_.executor).size();
-  }
-
-  /// Sets the weights of interfaces to zero, or all if that leaves fewer bad tetrahedra.
-  void flatten() {
-    TetMesh zero = now_.mesh;
-    for (const VertexId v : zero.vertices()) zero.set_weight(v, 0);
-    for (const VertexId v : interface_vertices(now_)) now_.mesh.set_weight(v, 0);
-    if (n_bad(zero) < n_bad(now_.mesh)) now_.mesh = std::move(zero);
-  }
-
-  /// Finds weights that violate the criterion least and keep the equations of interfaces. Takes them if fewer
-  /// tetrahedra are bad.
-  void reweigh(OptimizeReport& report) {
-    const std::size_t before = n_bad(now_.mesh);
-    const bool may_change = options_.unknowns != temper::Unknowns::positions;
-    if (!hooks_.solvers.lp || !may_change || before == 0) return;
-    WeightOptions wanted;
-    wanted.goal = WeightGoal::elastic;
-    wanted.constraints = constraints_of(criterion_of(options_.scheme));
-    wanted.from_input = true;
-    wanted.whole = kWhole;
-    const auto found = find_weights(now_, *hooks_.solvers.lp(), wanted);
-    if (!found) return;
-    TetMesh weighted = now_.mesh;
-    for (const VertexId v : weighted.vertices()) weighted.set_weight(v, found->weights[v]);
-    const std::size_t after = n_bad(weighted);
-    if (after >= before) return;
-    now_.mesh = std::move(weighted);
-    report.notes.push_back("weights of interfaces from a linear program lowered the number of bad tetrahedra from " +
-                           std::to_string(before) + " to " + std::to_string(after));
-  }
-
-  const TetMesh& original_;
-  const MetricMesh first_;
-  MetricMesh now_;
-  OptimizeOptions options_;
-  OptimizeHooks hooks_;
-  TetMesh result_;
-};
-
 }  // namespace
 
 Expected<OptimizeReport> optimize_in_metrics(TetMesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks,
                                              const PiecesRun& run) {
   auto pieces = pieces_of(mesh, options);
   if (!pieces) return pieces.error();
+  // New vertices on interfaces, at bad tetrahedra, made more of them bad in all cases of bench/tensors_tets.py.
   if (pieces->is_cut() && options.boundary == BoundaryVertices::split) {
-    return InputError{ErrorCode::invalid_option, "",
-                      "`boundary=split` would split interfaces between tensors on one side alone. Next: keep or slide"};
+    return InputError{
+        ErrorCode::invalid_option, "",
+        "`boundary=split` does not split interfaces between tensors. Next: slide, which moves vertices of "
+        "the boundary, or keep"};
   }
-  RunInMetrics in_metrics(mesh, *std::move(pieces), options, hooks);
-  auto report = in_metrics.run(run);
-  if (report) mesh = in_metrics.result();
-  return report;
+  return RunInPieces<Tetrahedra>(mesh, *std::move(pieces), options, hooks, run).run(mesh);
 }
 
 }  // namespace temper::tets
