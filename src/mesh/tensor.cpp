@@ -111,6 +111,7 @@ Expected<MetricOf<Tensor3>> MetricOf<Tensor3>::of(const Tensor3& k) {
   return metric;
 }
 
-template Expected<Metrics> Metrics::of(std::span<const Tensor> tensors, const InputNames& names);
+template Expected<Metrics> MetricsOf<Tensor, TriangleId, InputNames>::of(std::span<const Tensor> tensors,
+                                                                         const InputNames& names);
 
 }  // namespace temper

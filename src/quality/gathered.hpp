@@ -60,7 +60,9 @@ struct Row {
   static void end(Report& report, std::size_t n_cells) {
     if constexpr (how == How::sum) return;
     if (n_cells == 0) report.*member = 0;
-    if (how == How::share && n_cells > 0) report.*member /= static_cast<double>(n_cells);
+    if constexpr (how == How::share) {
+      if (n_cells > 0) report.*member /= static_cast<double>(n_cells);
+    }
   }
 
  private:

@@ -24,7 +24,8 @@ namespace temper::tets {
 
 namespace temper {
 
-template Expected<tets::Metrics> tets::Metrics::of(std::span<const Tensor3> tensors, const tets::InputNames& names);
+template Expected<tets::Metrics> MetricsOf<Tensor3, tets::TetId, tets::InputNames>::of(std::span<const Tensor3> tensors,
+                                                                                       const tets::InputNames& names);
 
 }  // namespace temper
 
