@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/sort_unique.hpp"
+#include "feasibility/demand.hpp"
 #include "optimize/run/end_of_run.hpp"
 #include "temper/detail/criterion.hpp"
 #include "temper/detail/tensor.hpp"
