@@ -237,6 +237,7 @@ stage "layers: the checker finds what it should" python3 scripts/check_layers.py
 stage "layers: who includes whom" python3 scripts/check_layers.py
 stage "links: the checker finds what it should" python3 scripts/check_links.py --self-test
 stage "links: none is dead" python3 scripts/check_links.py
+stage "site: navigation and links, by MkDocs" scripts/docs.sh --links
 stage "prose: the checker finds what it should" python3 scripts/check_prose.py --self-test
 stage "prose: sentences are plain" python3 scripts/check_prose.py
 stage "pages: the checker finds what it should" python3 scripts/docs/pages.py --self-test
