@@ -203,10 +203,13 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   run.facts.meets_limits = meets_limits_of_client(input.any_order(), settings);
   run.facts.meets_criterion =
       settings.changes_least() && meets(input.any_order(), settings.criterion, settings.executor());
-  const bool comes_back = run.facts.meets_limits || run.facts.meets_criterion;
-  auto found = comes_back ? Candidate{input.copy()} : attempt(input, settings, state, run, sizes);
-  if (!found) return found.error();
   const RunEnd end = {settings, state, of_input};
+  if (run.facts.meets_limits || run.facts.meets_criterion) {
+    keep_input(input, end, run);
+    return run.take_report();
+  }
+  auto found = attempt(input, settings, state, run, sizes);
+  if (!found) return found.error();
   Candidate best = least_error(*std::move(found), input, end, run);
   give_back(input, std::move(best), end, std::move(sizes), run);
   return run.take_report();

@@ -46,6 +46,14 @@ bool wants_sizes(const Settings& settings) {
   return settings.hooks.measures_sizes || settings.options.size_field || settings.size_field;
 }
 
+/// Says whether the accuracy objective compares meshes. With the least change nothing lowers it.
+bool is_of_accuracy(const Settings& settings) {
+  return settings.objective != Objective::energy && !settings.changes_least();
+}
+Objective reported_objective(const Settings& settings) {
+  return is_of_accuracy(settings) ? settings.objective : Objective::energy;
+}
+
 /// `model`: in the user's units. Data that are no longer needed are freed before the next measure.
 Result result_of(InputMesh& input, WorkingCopy work, const Settings& settings, const EnergyModel& model,
                  std::optional<AccuracySizes> sizes) {
@@ -122,7 +130,7 @@ InputMeasures::InputMeasures(InputMesh& input, const Settings& settings, std::op
     size = has_field ? measure_size(mesh, field_of(mesh, settings), executor, numbers)
                      : measure_size(mesh, field_of(mesh, settings), executor);
   }
-  if (settings.objective == Objective::energy) return;
+  if (!is_of_accuracy(settings)) return;
   sizes.emplace(mesh, numbers, settings.options.size_field, executor);
   VertexSizes there;
   for (const VertexId v : numbers) there.push_back(sizes->of_input()[v]);
@@ -139,6 +147,7 @@ static ChangeCounts changes_from(const Mesh& input, const Mesh& mesh, const IdVe
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_edge_representative(h)) continue;
     const VertexId a = number(mesh.origin(h)), b = number(mesh.target(h));
+    if (h.index < input.n_halfedges() && input.origin(h) == a && input.target(h) == b) continue;
     const bool was_there =
         is_old(a) && is_old(b) && (input.find_halfedge(a, b).valid() || input.find_halfedge(b, a).valid());
     counts.edges_changed += was_there ? 0 : 1;
@@ -170,11 +179,9 @@ Rivals measure(InputMesh& input, WorkingCopy best, const RunEnd& end, std::optio
   // Flips that make the input regular have priority over all other criteria.
   const MeshScore& made = rivals.made.score;
   const bool may_be_better = before < made || made.bad > 0 || made.non_regular > 0;
-  if (!may_be_better || run.facts.meets_limits || run.facts.meets_criterion ||
-      !lacks_flips(of_input.counts, settings, run.facts))
-    return rivals;
+  if (!may_be_better || !lacks_flips(of_input.counts, settings, run.facts)) return rivals;
   std::optional<AccuracySizes> again;
-  if (settings.objective != Objective::energy) {
+  if (is_of_accuracy(settings)) {
     const NearbyCopy near(input.whole(), settings.executor());
     again.emplace(near.mesh(), numbers_of(near), settings.options.size_field, settings.executor());
   }
@@ -211,7 +218,7 @@ void drop_tiny_weights(Mesh& mesh) {
 void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd& end, Run& run) {
   const Settings& settings = end.settings;
   OptimizeReport& report = run.report;
-  Ending ending = {returns_input, rivals.flips, settings.objective != Objective::energy, rivals.made.score.bad,
+  Ending ending = {returns_input, rivals.flips, is_of_accuracy(settings), rivals.made.score.bad,
                    bad_part(input.n_triangles(), end.of_input.counts.bad)};
   Result& result = rivals.made;
   if (returns_input) {
@@ -232,7 +239,7 @@ void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd
                                    is_new ? result.work.mesh : input.whole(),
                                    is_new && input.is_scattered() ? result.work.order->vertices : report.vertices,
                                    input.n_vertices(),
-                                   settings.objective,
+                                   reported_objective(settings),
                                    {rivals.energy_before, bad_before},
                                    {result.score.energy, is_new ? result.score.bad : bad_before}};
   complete(report, compared);
@@ -245,6 +252,22 @@ void hand_over(InputMesh& input, Rivals rivals, bool returns_input, const RunEnd
 }
 
 }  // namespace
+
+void keep_input(InputMesh& input, const RunEnd& end, Run& run) {
+  const auto& [settings, state, of_input] = end;
+  const Mesh& mesh = input.whole();
+  const EnergyModel model = in_user_units(state.model, WorkingUnits::of(mesh));
+  const MeshScore measured = of_input.score ? *of_input.score : score(mesh, of_input.counts, settings, model, nullptr);
+  const ReportedNumbers numbers = {measured.energy, of_input.counts.bad};
+  OptimizeReport& report = run.report;
+  report.size.before = report.size.after = of_input.size;
+  complete(report, EndOfRun<Mesh>{nullptr, mesh, report.vertices, input.n_vertices(), reported_objective(settings),
+                                  numbers, numbers});
+  if (settings.changes_least()) report.changed.emplace();
+  report.hidden_vertices = hidden_vertices_of(mesh, settings);
+  const double part = bad_part(input.n_triangles(), of_input.counts.bad);
+  add_notes(mesh, settings, run.facts, {false, false, is_of_accuracy(settings), of_input.counts.bad, part}, report);
+}
 
 void give_back(InputMesh& input, Candidate best, const RunEnd& end, std::optional<AccuracySizes> sizes, Run& run) {
   Rivals rivals = measure(input, std::move(best.work), end, std::move(sizes), run);

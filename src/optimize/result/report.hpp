@@ -14,7 +14,7 @@ namespace temper {
 /// Measures of the input for the report's comparisons. They are made before the sweeps, so that a user who stops the
 /// sweeps need not wait. Run::begin_sweeps() takes their time as an estimate of the time at the end.
 struct InputMeasures {
-  /// `sizes`: also computed, for objectives other than `energy`.
+  /// `sizes`: also computed, if the accuracy objective compares meshes.
   InputMeasures(InputMesh& input, const Settings& settings, std::optional<AccuracySizes>& sizes);
 
   MeshScore counts;
@@ -29,6 +29,8 @@ struct RunEnd {
   const InputMeasures& of_input;
 };
 
+/// Completes the report of a run that has nothing to do.
+void keep_input(InputMesh& input, const RunEnd& end, Run& run);
 /// Puts the candidate in the place of the input, unless the input is better, and completes the report. `sizes`: the
 /// accuracy objective's.
 void give_back(InputMesh& input, Candidate best, const RunEnd& end, std::optional<AccuracySizes> sizes, Run& run);

@@ -13,6 +13,8 @@
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/repair_search.hpp"
 #include "optimize/repair/trial.hpp"
+#include "optimize/run/judge.hpp"
+#include "optimize/stages/near_sweeps.hpp"
 #include "optimize/step/ties.hpp"
 #include "optimize/sweep/insertion.hpp"
 #include "temper/regularity.hpp"
@@ -361,8 +363,10 @@ int Driver::mend() {
   phase.begin();
   if (run_.report.history.empty()) record(phase.measure());
   run_.begin_sweeps();
-  GrowingSearch search(work_, run_, flipper_, settings_.policy.seed);
   recorder_.begin_sweep(run_.report.sweeps + 1);
+  if (run_.sweeps_left() && NearSweeps(work_, flipper_, state_, run_).run())
+    end_round(phase, [&] { return phase.measure(); });
+  GrowingSearch search(work_, run_, flipper_, settings_.policy.seed);
   while (run_.sweeps_left() && search.improve()) end_round(phase, [&] { return phase.measure(); });
   if (!run_.goes_on() && !run_.stopped_early()) run_.report.stopped = Stopped::max_sweeps;
   return run_.report.sweeps;

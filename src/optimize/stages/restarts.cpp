@@ -193,7 +193,7 @@ Expected<Candidate> best_restart(InputMesh& input, const Settings& settings, Swe
 }
 
 Expected<Mended> mended(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
-  Mended best{{input.copy()}};
+  Mended best{{WorkingCopy(input.whole(), SweepOrder::input)}};  // few vertices are visited, so that no order pays
   WorkingCopy& work = best.candidate.work;
   Driver driver(work, settings, state, run);
   if (!driver.make_regular()) return hidden_vertices_error(input.whole(), settings.hooks.names);

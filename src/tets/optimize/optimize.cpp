@@ -15,6 +15,7 @@
 #include "temper/tets/weights.hpp"
 #include "tets/optimize/accuracy.hpp"
 #include "tets/optimize/hot_sweeps.hpp"
+#include "tets/optimize/near_sweeps.hpp"
 #include "tets/optimize/repair.hpp"
 #include "tets/optimize/repair_run.hpp"
 #include "tets/optimize/sweeper.hpp"
@@ -62,13 +63,22 @@ class Driver : RepairRun {
   void change_bad_places() {
     many_are_bad_ = are_many(best_bad_, input_.mesh.n_tetrahedra());
     const std::size_t at_start = best_bad_;
-    if (best_bad_ == 0 || takes_least_weights() || split_surface()) return;
+    if (best_bad_ == 0 || made_good_nearby() || takes_least_weights() || split_surface()) return;
     if (!many_are_bad_ && changes_connectivity()) repair_in_patches();
     const std::size_t left = best_bad_;
     if (left == 0 || stopped_early()) return;
     draft_ = input_;
     sweep_and_repair();
     if (best_bad_ < left) places_left_ = many_are_bad_ ? at_start : left;
+  }
+
+  /// Sweeps near bad tetrahedra. They keep the connectivity, and cost less than programs for weights.
+  bool made_good_nearby() {
+    if (criterion_ != Criterion::well_centered || many_are_bad_) return false;
+    const auto must_stop = [this](double fraction) { return is_stopped(fraction); };
+    (void)sweep_near_violations(draft_, {criterion_, guarded_cosine()}, must_stop, hooks_.executor);
+    end_round(true);
+    return best_bad_ == 0 || stopped_early();
   }
 
   /// Makes the mesh keep the criterion. Weights alone come first if the solver needs less than well-centered

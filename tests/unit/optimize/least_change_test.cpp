@@ -228,7 +228,7 @@ TEST(LeastChange, IsTraced) {
 TEST(LeastChange, ThatIsStoppedKeepsWhatItHas) {
   const Mesh input = disturbed(50, 0.75, 131);
   const std::size_t before = cells_at_violations(input, Criterion::well_centered).size();
-  for (const int most : {0, 1, 5, 10}) {
+  for (const int most : {0, 1, 5}) {
     Mesh mesh = input;
     int calls = 0;
     OptimizeHooks hooks;
