@@ -103,6 +103,10 @@ struct PyTetMesh {
   [[nodiscard]] const tets::TetMesh& mesh() const { return loaded->mesh; }
 };
 
+/// The mesh gets a new state, with its file. `corner_weights`: of tetrahedra with several tensors.
+io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins& origins, Executor* executor,
+                       const std::vector<double>& corner_weights = {});
+
 /// The mesh of a file, and the warnings.
 [[nodiscard]] py::tuple load_tetrahedra(io::MeshFile file, Executor* executor);
 
@@ -202,6 +206,7 @@ void bind_change(py::module_& m);
 void bind_dec(py::module_& m);
 void bind_columns(py::module_& m);
 void bind_optimize(py::module_& m);
+void bind_optimizer(py::module_& m);
 void bind_measure(py::module_& m);
 void bind_weights(py::module_& m);
 

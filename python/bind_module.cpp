@@ -339,6 +339,7 @@ PYBIND11_MODULE(_temper, m) {
   bind_geometry(m);
   bind_change(m);
   bind_optimize(m);
+  bind_optimizer(m);
   bind_measure(m);
   bind_dec(m);
   bind_columns(m);

@@ -104,11 +104,12 @@ py::dict file_of_tets(const PyTetMesh& self) {
       .dict;
 }
 
+}  // namespace
+
 // --- changes ------------------------------------------------------------------------------------------
 
-/// The mesh gets a new state, with its file. `corner_weights`: of tetrahedra with several tensors.
 io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins& origins, Executor* executor,
-                       const std::vector<double>& corner_weights = {}) {
+                       const std::vector<double>& corner_weights) {
   io::MeshFile file = *self.file;
   io::DataReport data = aside([&] { return io::update(file, *self.loaded, mesh, origins, {{}, executor}); });
   io::set_corner_weights(file, corner_weights);
@@ -126,6 +127,8 @@ io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins&
   ++self.version;
   return data;
 }
+
+namespace {
 
 /// The weights of corners go into the cell data.
 void set_tet_corner_weights(PyTetMesh& self, const Doubles& weights) {

@@ -58,7 +58,7 @@ LIBRARIES = {"tets", "io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"
 CORE = set(LAYERS) - LIBRARIES | {"tets"}  # what keeps the rules of the core
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["cell_kinds", "ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "report", "suggest", "utf8", "version"]} | {"temper": "solvers", "criterion": "regularity", "trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "convex": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "cells": "dec", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "solver_measures": "size", "dec_io": "io", "certificate_io": "io", "file_cures": "io", "html": "io", "path": "io", "faces": "mesh"}
+HEADER_LAYER = {name: "base" for name in ["cell_kinds", "ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "report", "suggest", "utf8", "version"]} | {"temper": "solvers", "criterion": "regularity", "trace": "optimize", "optimize_table": "optimize", "optimizer": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "convex": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "cells": "dec", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "solver_measures": "size", "dec_io": "io", "certificate_io": "io", "file_cures": "io", "html": "io", "path": "io", "faces": "mesh"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath

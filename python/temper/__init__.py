@@ -52,6 +52,7 @@ from ._io import formats, read, write
 from ._measure import quality, quality_measures, tetrahedron_quality, triangle_quality
 from ._mesh import Mesh, as_mesh, from_meshio
 from ._optimize import Hooks, optimize, replay
+from ._optimizer import Optimizer
 from ._options import LengthParameter, OptimizeOptions, options_for
 from ._outline import Outline, mesh_outline, mesh_sphere, read_outline
 from ._plot import plot, plot_history

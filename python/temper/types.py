@@ -11,6 +11,7 @@ from ._draw import Html, Svg
 from ._io import Format
 from ._measure import QualityMeasure, TetrahedronQuality, TriangleQuality
 from ._optimize import Replay, Snapshot
+from ._optimizer import Update
 from ._outline import OutlineFile, OutlineMesh
 from ._certificate import Certificate, WeightConstraint
 from ._reports import ChangeCounts, CrossingConflict, CrossingSide, Cure, DataReport, DecSummary, DiffusionErrors, DiffusionMatrices, EdgeConflict, ErrorMatrices, ErrorNorms, ErrorSystem, Explanation, FaceHeight, FanCenter, FieldFrame, Histogram, Histograms, OptimizeReport, Progress, Quality, Reason, SizeChange, SweepRecord, TetDataReport, TetDecSummary, TetExplanation, TetHistograms, TetQuality, TetReason, TraceEvent, WorstTet, WorstTriangle
