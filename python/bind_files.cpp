@@ -91,7 +91,11 @@ io::DataRules data_rules_from(const PyMesh& self, const py::sequence& words) {
 
 /// The rules of a mesh, as words.
 std::vector<std::string> data_words(const PyMesh& self) {
-  const auto spell = [](io::DataRule rule) { return std::string(rule == io::DataRule::keep ? "keep" : "interpolate"); };
+  const auto spell = [](io::DataRule rule) {
+    return std::string(rule == io::DataRule::keep       ? "keep"
+                       : rule == io::DataRule::conserve ? "conserve"
+                                                        : "interpolate");
+  };
   std::vector<std::string> words = {spell(self.data_rules().rule)};
   for (const auto& [name, rule] : self.data_rules().exceptions) words.push_back(spell(rule) + "=" + name);
   return words;

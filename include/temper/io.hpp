@@ -356,30 +356,39 @@ struct LoadedTetMesh {
 };
 [[nodiscard]] Expected<LoadedTetMesh> make_tet_mesh(const MeshFile& file, Executor* executor = nullptr);
 
-/// The treatment of floating point data of points when vertices move. (Integers, flags and tags stay with their
-/// points.)
+/// The treatment of floating point data when the mesh changes. (Integers, flags and tags of points stay with their
+/// points. Integers of cells are sampled.)
 enum class DataRule {
-  interpolate,  ///< Data belong to the place: linear on the triangles of the input, so that a depth stays where it was
-                ///< measured
-  keep,         ///< Data belong to the point, such as a load on it
+  interpolate,  ///< Data of points belong to the place: linear on the triangles of the input, so that a depth stays
+                ///< where it was measured
+  keep,         ///< Data of points belong to the point, such as a load on it
+  conserve,     ///< Data of points or cells are means over power cells or cells: their integrals over the domain and
+                ///< over each region stay (temper/detail/transfer.hpp)
+  sample,       ///< A cell has the data of the input's cell that contains its middle
 };
+/// The arrays that rules are for.
+enum class DataOf { points, cells };
 
 /// The rules for all arrays: a default rule and exceptions.
 struct DataRules {
-  DataRule rule = DataRule::interpolate;
+  DataRule rule = DataRule::interpolate;            ///< Of cells `sample` or `conserve`, of points one of the others
   std::map<std::string, DataRule> exceptions = {};  ///< Rules of single arrays, by name
 
-  /// The rule of an array of point data; `keep` for integers.
+  /// The rule of an array; `keep` for integers.
   [[nodiscard]] DataRule of(const DataArray& array) const;
 };
-/// Reads rules from words: `interpolate` or `keep` for all arrays, `interpolate=NAME` or `keep=NAME` for one array.
-[[nodiscard]] Expected<DataRules> parse_data_rules(std::span<const std::string> words);
-/// Returns an error if an exception names no array of point data, or interpolates an array of integers.
-[[nodiscard]] Expected<void> check_data_rules(const DataRules& rules, const std::vector<DataArray>& point_data);
+/// Reads rules from words: `interpolate`, `keep` or `conserve` for all arrays of points, `keep=NAME` and so on for one
+/// array. Those of cells are `sample` and `conserve`. Without a word for all arrays they are `interpolate` or `sample`.
+[[nodiscard]] Expected<DataRules> parse_data_rules(std::span<const std::string> words, DataOf of = DataOf::points);
+/// Returns an error if an exception names no such array, or an array of integers for what only floating point data
+/// can, or conserves an array with a value that is not finite.
+[[nodiscard]] Expected<void> check_data_rules(const DataRules& rules, const std::vector<DataArray>& arrays,
+                                              DataOf of = DataOf::points);
 
 struct UpdateOptions {
-  DataRules rules = {};
-  Executor* executor = nullptr;  ///< Threads that look for places; the result does not depend on them
+  DataRules rules = {};                           ///< Of data of points
+  Executor* executor = nullptr;                   ///< Threads for the search; the result does not depend on them
+  DataRules cell_rules = {DataRule::sample, {}};  ///< Of data of triangles or tetrahedra
 };
 
 /// The effect of update() on data of points and triangles; all 0 for a file without data.
@@ -391,8 +400,14 @@ struct DataReport {
   std::size_t triangles = 0;        ///< Triangles of the mesh
   /// Triangles among these that the file does not have at the same number and places.
   std::size_t triangles_changed = 0;
-  std::vector<std::string> interpolated, kept, dropped;  ///< Names of point data, by their treatment
-  std::vector<std::string> of_triangles;                 ///< Names of cell data
+  /// Names of point data, by their treatment.
+  std::vector<std::string> interpolated, kept, conserved, dropped;
+  /// Names of cell data: sampled, and conserved.
+  std::vector<std::string> of_triangles, conserved_of_triangles;
+  /// Of conserved data: the largest change of an integral, over the integral of |u|; and how far a value is outside the
+  /// range of the former ones, over the largest |u|. The first is some roundings, and the second 0, unless the boundary
+  /// has moved or a region has no cell of its own.
+  double integral_change = 0, out_of_range = 0;
 };
 /// The rows for triangles, or for tetrahedra: there the keys say so.
 [[nodiscard]] const ReportTable& table_of(const DataReport*);
@@ -406,9 +421,11 @@ struct DataReport {
 /// Data follow these rules:
 ///   - Floating point data of points are interpolated on the triangles of the file, at the new place of the vertex,
 ///     unless the rules keep them. At the place of an old point they are its data, bit for bit.
+///   - Conserved data of points are means over power cells, those of the file's weights and of the mesh's. So are
+///     conserved data of cells. Arrays with a value that is not finite are interpolated or sampled, with a warning.
 ///   - Integers stay with their point. An inserted point gets the value that all corners around it have in common. If
 ///     they differ anywhere, the array is dropped.
-///   - Each triangle gets the cell data of the file's triangle that contains its middle. Nothing is averaged.
+///   - Each triangle gets the other cell data of the file's triangle that contains its middle. Nothing is averaged.
 ///   - If a removed point joined two lines of one tag, one line replaces them. Other lines and marked points disappear
 ///     with their points.
 ///   - A line whose edge was split becomes two lines with the same tag and data.

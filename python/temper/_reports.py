@@ -461,6 +461,8 @@ class DataReport(Record):
     """Point data that belong to the place: linear in the cells of the file."""
     kept: list[str]
     """Point data that stayed with their points."""
+    conserved: list[str]
+    """Point data whose integrals stay: means over power cells."""
     dropped: list[str]
     """Integer point data that differ around an inserted point."""
     triangles: int
@@ -469,6 +471,14 @@ class DataReport(Record):
     """Cells among these that the file does not have at the same number and places."""
     of_triangles: list[str]
     """Data of cells: each cell has the data of the file's cell that contains its middle."""
+    conserved_of_triangles: list[str]
+    """Data of cells whose integrals stay: means over the file's cells."""
+    integral_change: float
+    """Largest change of the integral of conserved data over the domain or a region, over the integral of \\|u\\|
+    there."""
+    out_of_range: float
+    """How far conserved data are outside the range of the file's, over the largest \\|u\\|; 0 unless the boundary
+    moved."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -966,6 +976,8 @@ class TetDataReport(Record):
     """Point data that belong to the place: linear in the cells of the file."""
     kept: list[str]
     """Point data that stayed with their points."""
+    conserved: list[str]
+    """Point data whose integrals stay: means over power cells."""
     dropped: list[str]
     """Integer point data that differ around an inserted point."""
     tetrahedra: int
@@ -974,6 +986,14 @@ class TetDataReport(Record):
     """Cells among these that the file does not have at the same number and places."""
     of_tetrahedra: list[str]
     """Data of cells: each cell has the data of the file's cell that contains its middle."""
+    conserved_of_tetrahedra: list[str]
+    """Data of cells whose integrals stay: means over the file's cells."""
+    integral_change: float
+    """Largest change of the integral of conserved data over the domain or a region, over the integral of \\|u\\|
+    there."""
+    out_of_range: float
+    """How far conserved data are outside the range of the file's, over the largest \\|u\\|; 0 unless the boundary
+    moved."""
 
 
 CLASSES["TetOptimizeReport"] = OptimizeReport

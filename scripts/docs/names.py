@@ -60,6 +60,7 @@ OTHERS = {
     "--lines": ("`mesh_sphere(lines=…)`", "`SphereOutline::lines`"),
     "--no-triangle-quality": ("`write(triangle_quality=False)`", "`io::WriteOptions::triangle_quality`"),
     "--point-data": ("`Mesh.point_data_rules`", "`io::UpdateOptions::rules`"),
+    "--cell-data": ("", "`io::UpdateOptions::cell_rules`"),
     "--positive": ("`read(positive=…)`", "`io::ReadOptions::positive`"),
     "--projection": ("`read(projection=…)`", "`io::project`"),
     "--tensor": ("`optimize(tensor=…)`, `dec_operators(tensor=…)`, `mapped`, `mapped_back`", "`Metric`, `mapped`, `mapped_back`"),

@@ -16,8 +16,9 @@
 namespace temper::app {
 
 /// The flags that an options file may hold besides the options of the table. A report holds those that were given.
-inline constexpr auto kFlagsOfARun = std::to_array<std::string_view>(
-    {"--for", "--effort", "--keep", "--fix", "--size", "--size-data", "--tensor", "--projection", "--point-data"});
+inline constexpr auto kFlagsOfARun =
+    std::to_array<std::string_view>({"--for", "--effort", "--keep", "--fix", "--size", "--size-data", "--tensor",
+                                     "--projection", "--point-data", "--cell-data"});
 
 /// An option of the table, and the value that the user gave.
 struct Assignment {

@@ -151,12 +151,20 @@ struct MeshRecord {
 
 // Data of points and triangles, for optimize and replay: the given rules, and the results for the data.
 
-/// --point-data, whose words are checked as they come.
-void add_point_data(Command& command, std::vector<std::string>& words);
-
-/// The rules of those words, for the point data of a file; Failure when it has no array of a name.
-[[nodiscard]] io::DataRules data_rules(const std::vector<std::string>& words, const std::string& path,
-                                       const std::vector<io::DataArray>& point_data);
+/// The words of --point-data and --cell-data.
+struct DataWords {
+  std::vector<std::string> of_points, of_cells;
+};
+/// Adds both options. Their words are checked as they come.
+void add_data_rules(Command& command, DataWords& words);
+/// The rules for the data of a file. Failure if one names no array of its, or does not fit the array.
+[[nodiscard]] io::UpdateOptions data_rules(const DataWords& words, const std::string& path,
+                                           const std::vector<io::DataArray>& point_data,
+                                           const std::vector<io::DataArray>& cell_data);
+[[nodiscard]] inline io::UpdateOptions with_threads(io::UpdateOptions options, Executor* threads) {
+  options.executor = threads;
+  return options;
+}
 
 /// Lines of `temper optimize`; none if nothing moved that carries data. `one`, `several`: the elements.
 [[nodiscard]] std::string data_text(const io::DataReport& report, std::string_view one, std::string_view several);

@@ -51,8 +51,8 @@ template <class Subject>
 void write_all(const Command& command, const OptimizeSettings& s, InputOf<Subject>& input, const RunFiles& files,
                RunResults<Subject>& results, Outputs& outputs) {
   const std::size_t known = input.file.warnings.size();
-  results.data =
-      io::update(input.file, input.loaded, *results.improved, parts_of(results.report), {s.rules, files.threads});
+  results.data = io::update(input.file, input.loaded, *results.improved, parts_of(results.report),
+                            with_threads(s.data, files.threads));
   add_corner_weights(results.report, input.file);
   if (s.files.page.empty()) release_mesh(input, results);
   warn(results, std::span(input.file.warnings).subspan(known));
@@ -100,7 +100,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, InputOf<Subject>
   outputs.expect_place(s.output, input.file);
   RunResults<Subject> results;
   warn(results, input.warnings());
-  s.rules = data_rules(s.point_data, input.path, input.file.point_data);
+  s.data = data_rules(s.data_words, input.path, input.file.point_data, (input.file.*Subject::cells_of_file).data);
   prepare(command, s, input, files, results);
   // The mesh has its geometry now, and on the largest meshes memory is scarce.
   io::release_geometry(input.file, input.loaded);

@@ -24,7 +24,7 @@ struct ReplaySettings {
   std::string input, trace;
   MeshOutput output;
   std::optional<int> sweeps;
-  std::vector<std::string> point_data;
+  DataWords data_words;
 };
 
 void add_options(Command& command, ReplaySettings& s) {
@@ -34,7 +34,7 @@ void add_options(Command& command, ReplaySettings& s) {
   command.option("--output").require();
   add_projection(command, s.projection);
   add_heights(command, s.heights);
-  add_point_data(command, s.point_data);
+  add_data_rules(command, s.data_words);
   add_count(command, "--sweeps", s.sweeps, 0, "Last sweep to repeat. 0 stops when IN has been made regular.");
 }
 
@@ -61,7 +61,7 @@ Exit replay(const ReplaySettings& s) {
   Input input = read_input(s.input, {.projection = s.projection, .heights = s.heights});
   outputs.expect_place(s.output, input.file);
   print_warnings(input.warnings());
-  const io::DataRules rules = data_rules(s.point_data, input.path, input.file.point_data);
+  const io::UpdateOptions data = data_rules(s.data_words, input.path, input.file.point_data, input.file.triangles.data);
   const Trace trace = read_trace(s.trace, input);
   const std::vector<TraceEvent>& events = trace.events;
   const auto applied = wanted(events, s.sweeps);
@@ -74,7 +74,7 @@ Exit replay(const ReplaySettings& s) {
   }
 
   const std::size_t known = input.file.warnings.size();
-  io::update(input.file, input.loaded, replayed->mesh, replayed->vertices, {rules});
+  io::update(input.file, input.loaded, replayed->mesh, replayed->vertices, data);
   print_warnings(std::span(input.file.warnings).subspan(known));
   print_warnings(outputs.write_mesh(s.output, input.file));
   print(fmt::format("{} of {}: {}\nwrote {}\n", applied.size(), plural(events.size(), "event", "events"),

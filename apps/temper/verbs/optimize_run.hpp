@@ -95,7 +95,7 @@ void set_hooks(Hooks& hooks, ProgressLine& line, const OptimizeSettings& s, cons
   if (!s.save_every) return;
   hooks.best_so_far = saver(s, [&s, &input, threads](const auto& best) {
     io::MeshFile file = input.file;
-    io::update(file, input.loaded, best.mesh, parts_of(best), {s.rules, threads});
+    io::update(file, input.loaded, best.mesh, parts_of(best), with_threads(s.data, threads));
     return save(s, file, threads);
   });
 }

@@ -120,7 +120,7 @@ void add_rare(Command& command, OptimizeSettings& s) {
               "Without --dirichlet it lowers the mean error of many smooth solutions with K = 1. Not with --tensor.");
   Option& data = add_text(command, "--size-data", "NAME", s.size_data, "Name of the point data in the file of --size.");
   data.default_text = "size", data.cells = CellKinds::triangles;
-  add_point_data(command, s.point_data);
+  add_data_rules(command, s.data_words);
   add_threads(command, s.threads,
               "Number of threads of each process. 0 uses all threads of the machine, or all that the process may use.");
   add_number(

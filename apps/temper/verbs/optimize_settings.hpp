@@ -17,6 +17,7 @@
 #include "options/ranks.hpp"
 #include "options/requirement.hpp"
 #include "options/table_options.hpp"
+#include "reports/reports.hpp"
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 
@@ -44,8 +45,8 @@ struct OptimizeSettings {
   std::string size, size_data;
   TensorOption tensor;
   ProblemOptions problem;
-  std::vector<std::string> point_data;
-  io::DataRules rules;  ///< of point_data
+  DataWords data_words;
+  io::UpdateOptions data;  ///< by these words
 };
 
 /// --for, with the meanings of the targets; also with targets of research.

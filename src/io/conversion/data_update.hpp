@@ -15,9 +15,12 @@
 #include <vector>
 
 #include "io/conversion/follow.hpp"
+#include "io/conversion/known_arrays.hpp"
 #include "io/conversion/quadrilaterals.hpp"
+#include "io/text/failure.hpp"
 #include "io/text/values.hpp"
 #include "temper/detail/location.hpp"
+#include "temper/detail/transfer.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
@@ -69,14 +72,28 @@ std::optional<T> value_at(const std::vector<T>& values, std::size_t n, std::size
 [[nodiscard]] std::optional<std::string> warning_of_dropped(const std::vector<std::string>& names,
                                                             std::string_view why);
 
+/// Says whether an array is conserved by these rules: its values are finite.
+[[nodiscard]] bool is_conserved(const DataArray& array, const DataRules& rules);
+/// The values of a conserved array on the new cells. The report gets how far the promises hold.
+[[nodiscard]] Values conserved_values(const DataArray& array, const CellOverlaps& overlaps, DataReport& report);
+
+/// What data need to know of a change.
+struct WantedOfChange {
+  bool places = false;           ///< of the vertices
+  bool sources = false;          ///< of the cells
+  bool vertex_overlaps = false;  ///< of power cells
+  bool cell_overlaps = false;
+  friend bool operator==(const WantedOfChange&, const WantedOfChange&) = default;
+};
+
 /// Takes the data of a file from its former mesh to a new one, and reports it. A Change tells about the two:
-///   - its type Place, and the constant `dimension` of the cells
+///   - its type Found with places, sources, vertex_overlaps and cell_overlaps, and the constant `dimension` of the
+///   cells
 ///   - mesh(): the new mesh
 ///   - former_corners(i): the points of cell i in the file, nothing if the file has fewer cells
 ///   - moved(v, was): the distance of a vertex from its place in the file; nothing if it has not moved
-///   - find(former, of_points, of_cells): the places of the vertices and the sources of the cells in the former mesh,
-///   as
-///     far as they are wanted
+///   - has_other_weight(v, was): says whether the weight of a vertex is not that of the file
+///   - find(former, wanted): the places of the vertices and the sources of the cells in the former mesh, and overlaps
 template <class Change>
 class DataUpdater {
  public:
@@ -90,20 +107,17 @@ class DataUpdater {
   DataReport update() {
     if (file_.point_data.empty() && cells_.data.empty()) return {};
     measure();
-    const bool of_cells = report_.triangles_changed > 0 && !cells_.data.empty();
-    if (const bool of_points = must_move(); of_points || of_cells) {
-      auto found = change_.find(former_, of_points, of_cells);
+    name_cell_data();
+    if (const WantedOfChange wanted = wanted_of_change(); wanted != WantedOfChange()) {
+      auto found = change_.find(former_, wanted);
       if (!found) {
         drop_all(found.error().what());
         return std::move(report_);
       }
-      places_ = std::move(found->places);
-      if (of_cells) take_rows(cells_.data, found->sources);
+      found_ = *std::move(found);
+      if (wanted.cell_overlaps || wanted.sources) update_cell_data();
     }
     update_point_data();
-    for (const DataArray& a : cells_.data) {
-      if (a.name != kQuadrilateral) report_.of_triangles.push_back(a.name);
-    }
     return std::move(report_);
   }
 
@@ -117,6 +131,7 @@ class DataUpdater {
       ++(was.valid() ? report_.points : report_.points_inserted);
       const auto distance = was.valid() ? change_.moved(v, was) : std::nullopt;
       if (distance) distances.push_back(*distance);
+      weights_changed_ = weights_changed_ || (was.valid() && change_.has_other_weight(v, was));
     }
     report_.points_moved = distances.size();
     report_.distance = spread(std::move(distances));
@@ -138,20 +153,65 @@ class DataUpdater {
     std::ranges::sort(now);
     return *before == now;
   }
-  /// Says whether data of points change their values.
-  [[nodiscard]] bool must_move() const {
-    return report_.points_inserted > 0 ||
-           (report_.points_moved > 0 && std::ranges::any_of(file_.point_data, [this](const DataArray& a) {
-              return options_.rules.of(a) == DataRule::interpolate;
-            }));
+  /// Power cells change with weights, too, even if nothing has moved.
+  [[nodiscard]] WantedOfChange wanted_of_change() const {
+    const auto any_of = [](const std::vector<DataArray>& arrays, const auto& test) {
+      return std::ranges::any_of(arrays, test);
+    };
+    const auto by_place = [this](const DataArray& a) { return interpolates(a); };
+    const auto by_cell = [this](const DataArray& a) { return is_conserved(a, options_.rules); };
+    const auto of_cells = [this](const DataArray& a) { return is_conserved(a, options_.cell_rules); };
+    WantedOfChange wanted;
+    wanted.places = (report_.points_inserted > 0 && !std::ranges::all_of(file_.point_data, by_cell)) ||
+                    (report_.points_moved > 0 && any_of(file_.point_data, by_place));
+    const bool cells_changed = report_.points_inserted + report_.points_moved + report_.triangles_changed > 0;
+    wanted.vertex_overlaps = (cells_changed || weights_changed_) && any_of(file_.point_data, by_cell);
+    if (report_.triangles_changed == 0) return wanted;
+    wanted.cell_overlaps = any_of(cells_.data, of_cells);
+    wanted.sources = !std::ranges::all_of(cells_.data, of_cells);
+    return wanted;
+  }
+  /// Arrays that should be conserved, but are not finite, are interpolated.
+  [[nodiscard]] bool interpolates(const DataArray& a) const {
+    return options_.rules.of(a) != DataRule::keep && !is_conserved(a, options_.rules);
+  }
+  void warn_of_not_finite(const DataArray& a, const DataRules& rules, std::string_view instead) {
+    if (rules.of(a) != DataRule::conserve || is_conserved(a, rules) || a.name == kCornerWeights) return;
+    file_.warnings.push_back(
+        text("'", a.name, "' has a value that is not finite, so it is ", instead, ", and its integrals change"));
+  }
+  void name_cell_data() {
+    for (const DataArray& a : cells_.data) {
+      if (a.name == kQuadrilateral) continue;
+      (is_conserved(a, options_.cell_rules) ? report_.conserved_of_triangles : report_.of_triangles).push_back(a.name);
+    }
+  }
+  void update_cell_data() {
+    for (DataArray& a : cells_.data) {
+      warn_of_not_finite(a, options_.cell_rules, "sampled");
+      if (is_conserved(a, options_.cell_rules)) {
+        a.values = conserved_values(a, found_.cell_overlaps, report_);
+      } else {
+        std::vector<DataArray> one = {std::move(a)};
+        take_rows(one, found_.sources);
+        a = std::move(one[0]);
+      }
+    }
   }
   /// Names each array in the report. Integers that differ around a new vertex are dropped, with a warning.
   void update_point_data() {
     std::vector<DataArray> left;
     for (DataArray& a : file_.point_data) {
-      const bool follows = options_.rules.of(a) == DataRule::interpolate;
-      std::optional<Values> values = at_vertices(a);
-      (!values ? report_.dropped : follows ? report_.interpolated : report_.kept).push_back(a.name);
+      warn_of_not_finite(a, options_.rules, "interpolated");
+      const bool conserves = is_conserved(a, options_.rules);
+      const bool has_overlaps = found_.vertex_overlaps.n_cells > 0;  // else nothing has changed
+      std::optional<Values> values =
+          conserves && has_overlaps ? conserved_values(a, found_.vertex_overlaps, report_) : at_vertices(a);
+      (!values           ? report_.dropped
+       : conserves       ? report_.conserved
+       : interpolates(a) ? report_.interpolated
+                         : report_.kept)
+          .push_back(a.name);
       if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
     }
     file_.point_data = std::move(left);
@@ -159,7 +219,7 @@ class DataUpdater {
       file_.warnings.push_back(*std::move(warning));
   }
   [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const {
-    const bool stays = options_.rules.of(a) == DataRule::keep || places_.empty();
+    const bool stays = !interpolates(a) || found_.places.empty();
     const auto n = static_cast<std::size_t>(a.components);
     return std::visit(
         [&](const auto& values) -> std::optional<Values> {
@@ -170,7 +230,7 @@ class DataUpdater {
             for (std::size_t i = 0; i < n; ++i) {
               const auto value = stays && was.valid() ? std::optional(values[n * was.index + i])
                                  : is_flag(a)         ? std::optional(ElementOf<decltype(values)>())
-                                                      : value_at(values, n, i, places_[v]);
+                                                      : value_at(values, n, i, found_.places[v]);
               if (!value) return {};
               result.push_back(*value);
             }
@@ -180,6 +240,7 @@ class DataUpdater {
         a.values);
   }
   void drop_all(const std::string& why) {
+    report_.of_triangles.clear(), report_.conserved_of_triangles.clear();
     for (auto* arrays : {&file_.point_data, &cells_.data}) {
       for (const DataArray& a : *arrays) report_.dropped.push_back(a.name);
       arrays->clear();
@@ -192,7 +253,8 @@ class DataUpdater {
   const Change& change_;
   const Former& former_;
   const UpdateOptions& options_;
-  IdVector<VertexId, typename Change::Place> places_;  // in the former mesh; empty: not needed
+  typename Change::Found found_;  // what is not wanted is empty
+  bool weights_changed_ = false;
   DataReport report_;
 };
 

@@ -15,8 +15,10 @@
 #include "io/disk/files.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/location.hpp"
+#include "temper/detail/transfer.hpp"
 #include "temper/io.hpp"
 #include "temper/tets/location.hpp"
+#include "temper/tets/transfer.hpp"
 
 namespace temper::io {
 namespace {
@@ -24,11 +26,11 @@ namespace {
 /// The change of a mesh of triangles, for DataUpdater. The file still has the former mesh.
 class TriangleChange {
  public:
-  using Place = temper::Place;
   static constexpr int dimension = 2;
   struct Found {
     IdVector<VertexId, Place> places;
     std::vector<std::size_t> sources;
+    CellOverlaps vertex_overlaps, cell_overlaps;
   };
 
   TriangleChange(const MeshFile& file, const Mesh& mesh, Executor* executor)
@@ -45,7 +47,10 @@ class TriangleChange {
     const double moved = distance(space, before, space.image(now, before));
     return moved > 0 ? std::optional(moved) : std::nullopt;
   }
-  [[nodiscard]] Expected<Found> find(const Former& former, bool /*of_points*/, bool of_cells) const {
+  [[nodiscard]] bool has_other_weight(VertexId v, VertexId was) const {
+    return mesh_.weight(v) != (was.index < file_.weights.size() ? file_.weights[was.index] : 0);
+  }
+  [[nodiscard]] Expected<Found> find(const Former& former, const WantedOfChange& wanted) const {
     MeshInput input;
     input.space = mesh_.space();
     input.points = file_.points;
@@ -53,12 +58,18 @@ class TriangleChange {
     input.triangles = file_.triangles;
     input.regions = file_.triangles.tags;
     input.executor = executor_;
-    const Expected<BuiltMesh> before = Mesh::build(input);
-    if (!before) return before.error();
-    Found found = {positions_of_vertices(before->mesh, mesh_, former, executor_), {}};
-    if (!of_cells) return found;
-    for (const TriangleId t : sources_of_triangles(before->mesh, mesh_, found.places, executor_))
-      found.sources.push_back(t.index);
+    if (wanted.vertex_overlaps) input.weights = file_.weights;
+    const Expected<BuiltMesh> built = Mesh::build(input);
+    if (!built) return built.error();
+    const Mesh& before = built->mesh;
+    Found found;
+    if (wanted.places || wanted.sources) found.places = positions_of_vertices(before, mesh_, former, executor_);
+    if (wanted.sources) {
+      for (const TriangleId t : sources_of_triangles(before, mesh_, found.places, executor_))
+        found.sources.push_back(t.index);
+    }
+    if (wanted.vertex_overlaps) found.vertex_overlaps = overlaps(before, mesh_, CellsOf::vertices, executor_);
+    if (wanted.cell_overlaps) found.cell_overlaps = overlaps(before, mesh_, CellsOf::triangles, executor_);
     return found;
   }
 
@@ -71,11 +82,11 @@ class TriangleChange {
 /// The change of a mesh of tetrahedra.
 class TetChange {
  public:
-  using Place = tets::Place;
   static constexpr int dimension = 3;
   struct Found {
-    IdVector<VertexId, Place> places;
+    IdVector<VertexId, tets::Place> places;
     std::vector<std::size_t> sources;
+    CellOverlaps vertex_overlaps, cell_overlaps;
   };
 
   TetChange(const tets::TetMesh& before, const tets::TetMesh& mesh, Executor* executor)
@@ -89,12 +100,18 @@ class TetChange {
     if (before_.position(was) == mesh_.position(v)) return {};
     return length(mesh_.position(v) - before_.position(was));
   }
-  [[nodiscard]] Expected<Found> find(const Former& former, bool of_points, bool of_cells) const {
+  [[nodiscard]] bool has_other_weight(VertexId v, VertexId was) const { return before_.weight(was) != mesh_.weight(v); }
+  [[nodiscard]] Expected<Found> find(const Former& former, const WantedOfChange& wanted) const {
     Found found;
-    if (of_points) found.places = positions_of_vertices(before_, mesh_, former, executor_);
-    if (!of_cells) return found;
-    for (const tets::TetId t : sources_of_tetrahedra(before_, mesh_, former, executor_))
-      found.sources.push_back(t.index);
+    if (wanted.places) found.places = positions_of_vertices(before_, mesh_, former, executor_);
+    if (wanted.sources) {
+      for (const tets::TetId t : sources_of_tetrahedra(before_, mesh_, former, executor_))
+        found.sources.push_back(t.index);
+    }
+    if (wanted.vertex_overlaps)
+      found.vertex_overlaps = tets::overlaps(before_, mesh_, tets::CellsOf::vertices, executor_);
+    if (wanted.cell_overlaps)
+      found.cell_overlaps = tets::overlaps(before_, mesh_, tets::CellsOf::tetrahedra, executor_);
     return found;
   }
 

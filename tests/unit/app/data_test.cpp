@@ -22,7 +22,8 @@ class Data : public Workshop {
     for (const Vec2 p : file.points) depths.push_back(depth(p)), node.push_back(static_cast<int>(node.size()));
     for (std::size_t t = 0; t < file.triangles.size(); ++t) bottom.push_back(static_cast<int>(t));
     file.point_data = {{"depth", 1, depths}, {"node", 1, node}};
-    file.triangles.data = {{"bottom", 1, bottom}};
+    std::vector<double> load(bottom.begin(), bottom.end());
+    file.triangles.data = {{"bottom", 1, bottom}, {"load", 1, load}};
     ASSERT_TRUE(io::write(path, file));
   }
   static std::vector<double> depths(const io::MeshFile& file) {
@@ -70,20 +71,47 @@ TEST_F(Data, TheReportSaysWhatMovedHowFarAndWhatWasInterpolated) {
   EXPECT_GT(data["distance"]["median"], 0);
   EXPECT_EQ(data["interpolated"], nlohmann::json::array({"depth"}));
   EXPECT_EQ(data["kept"], nlohmann::json::array({"node"}));
-  EXPECT_EQ(data["of_triangles"], nlohmann::json::array({"bottom"}));
+  EXPECT_EQ(data["of_triangles"], nlohmann::json::array({"bottom", "load"}));
   EXPECT_GT(data["triangles_changed"], 200);
   EXPECT_TRUE(contains(outcome.out, "point data: " + data["points_moved"].dump() + " of 400 points moved, by "));
   EXPECT_TRUE(contains(outcome.out, "interpolated on the triangles of the input: depth\n"));
   EXPECT_TRUE(contains(outcome.out, "kept with their points: node\n"));
-  EXPECT_TRUE(contains(outcome.out, "taken from the input's triangle at the same place: bottom\n"));
+  EXPECT_TRUE(contains(outcome.out, "taken from the input's triangle at the same place: bottom, load\n"));
   EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Data, ConservedOnesKeepTheirIntegrals) {
+  write_bay("bay.vtu");
+  const Outcome outcome = temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--write", "r.json", "--details",
+                                     "--point-data", "conserve=depth", "--cell-data", "conserve"});
+  const nlohmann::json data = read_json("r.json")["data"];
+  EXPECT_EQ(data["conserved"], nlohmann::json::array({"depth"}));
+  EXPECT_EQ(data["conserved_of_triangles"], nlohmann::json::array({"load"}));
+  EXPECT_LT(data["integral_change"], 1e-14);
+  EXPECT_EQ(data["out_of_range"], 0);
+  EXPECT_TRUE(contains(outcome.out, "conserved on power cells: depth\n"));
+  EXPECT_TRUE(contains(outcome.out, "conserved on triangles: load\n"));
+  EXPECT_TRUE(contains(outcome.out, "integrals of conserved data: changed by "));
+  const auto integral = [](const std::string& path) {
+    const auto file = io::read(path);
+    const auto mesh = io::make_mesh(*file)->mesh;
+    const auto& load = std::get<std::vector<double>>(file->triangles.data.at(1).values);
+    double sum = 0;
+    for (const TriangleId t : mesh.triangles()) {
+      const auto [a, b, c] = mesh.points(t);
+      sum += 0.5 * cross(b.position() - a.position(), c.position() - a.position()) * load[t.index];
+    }
+    return sum;
+  };
+  EXPECT_NEAR(integral("out.vtu") / integral("bay.vtu"), 1, 1e-13);
 }
 
 TEST_F(Data, AReplayPutsTheSameDataBackToTheByte) {
   write_bay("bay.vtu");
   for (const std::vector<std::string>& rules : {std::vector<std::string>{},
                                                 {"--point-data", "keep"},
-                                                {"--point-data", "keep", "--point-data", "interpolate=depth"}}) {
+                                                {"--point-data", "keep", "--point-data", "interpolate=depth"},
+                                                {"--point-data", "conserve", "--cell-data", "conserve"}}) {
     std::vector<std::string> run = {"optimize", "bay.vtu", "-o", "out.vtu", "--quiet", "--write", "t.jsonl"};
     if (TEMPER_SANITIZED) run.insert(run.end(), {"--set", "max_sweeps=10"});
     std::vector<std::string> again = {"paper", "replay", "bay.vtu", "t.jsonl", "-o", "again.vtu", "--quiet"};
@@ -108,7 +136,7 @@ TEST_F(Data, RulesThatFitNoArrayAreRefusedBeforeTheWork) {
   refused({"keep=dept"}, "bay.vtu: --point-data: there is no point data 'dept'; there are: depth, node");
   refused({"interpolate=node"}, "only floating point data are interpolated");
   refused({"keep", "interpolate"}, "--point-data: 'interpolate' contradicts what was said before it");
-  refused({"move"}, "--point-data: 'move' is not interpolate, keep, interpolate=NAME or keep=NAME");
+  refused({"move"}, "--point-data: 'move' is not interpolate, keep, conserve, or one of these with =NAME");
 }
 
 TEST_F(Data, TheCommandOfAReportMakesTheSameData) {

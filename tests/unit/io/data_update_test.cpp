@@ -1,7 +1,9 @@
 // Data of points and triangles follow a mesh that changes: what is of the place stays at the place.
 #include <cmath>
+#include <map>
 
 #include "support.hpp"
+#include "temper/detail/transfer.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/topology.hpp"
@@ -232,14 +234,111 @@ TEST(DataRules, ThatMakeNoSenseAreRefusedByName) {
   EXPECT_EQ(error({}), "");
   EXPECT_EQ(error({"keep", "interpolate=depth", "keep=id"}), "");
   EXPECT_EQ(error({"keep=node"}), "");
-  EXPECT_EQ(error({"drop"}), "'drop' is not interpolate, keep, interpolate=NAME or keep=NAME");
-  EXPECT_EQ(error({"keep="}), "'keep=' is not interpolate, keep, interpolate=NAME or keep=NAME");
+  EXPECT_EQ(error({"drop"}), "'drop' is not interpolate, keep, conserve, or one of these with =NAME");
+  EXPECT_EQ(error({"keep="}), "'keep=' is not interpolate, keep, conserve, or one of these with =NAME");
+  EXPECT_EQ(error({"sample"}), "'sample' is not interpolate, keep, conserve, or one of these with =NAME");
+  EXPECT_EQ(error({"conserve=node"}),
+            "point data 'node' are integers (int32), of which there are no means: only floating point data are "
+            "conserved");
   EXPECT_EQ(error({"keep", "interpolate"}), "'interpolate' contradicts what was said before it");
   EXPECT_EQ(error({"keep=id", "interpolate=id"}), "'interpolate=id' contradicts what was said before it");
   EXPECT_EQ(error({"keep=dept"}), "there is no point data 'dept'; there are: depth, coarse, node, id");
   EXPECT_EQ(error({"interpolate=node"}),
             "point data 'node' are integers (int32), which stay with their points: only floating point data are "
             "interpolated");
+}
+
+TEST(DataRules, OfCellsAreSampleAndConserve) {
+  MeshFile f = file_with_data();
+  const auto error = [&](const std::vector<std::string>& words) {
+    const auto rules = parse_data_rules(words, DataOf::cells);
+    if (!rules) return rules.error().message;
+    const auto checked = check_data_rules(*rules, f.triangles.data, DataOf::cells);
+    return checked ? std::string() : checked.error().message;
+  };
+  EXPECT_EQ(error({"conserve", "sample=east"}), "");
+  EXPECT_EQ(error({"keep"}), "'keep' is not sample, conserve, or one of these with =NAME");
+  EXPECT_EQ(error({"conserve=west"}), "there is no cell data 'west'; there are: triangle, east");
+  EXPECT_EQ(error({"sample=triangle"}), "");
+  std::get<std::vector<double>>(f.triangles.data[1].values)[7] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(error({"conserve=east"}),
+            "cell data 'east' have a value in row 7, counted from 0, that is not finite, so they have no integral. "
+            "Next: sample=east");
+}
+
+/// Integrals over each region of cell data, and of point data over power cells.
+std::map<std::int32_t, double> integrals_of(const Mesh& mesh, const std::vector<double>& values, bool of_points,
+                                            std::size_t n = 1, std::size_t component = 0) {
+  const CellOverlaps table = overlaps(mesh, mesh, of_points ? CellsOf::vertices : CellsOf::triangles);
+  std::map<std::int32_t, double> sums;
+  for (const CellPart& part : table.parts) sums[part.region] += part.size * values[n * part.cell + component];
+  return sums;
+}
+
+TEST(ConservedData, KeepTheirIntegralsWhateverAnOptimizationDoes) {
+  DataRules points, cells;
+  points.rule = cells.rule = DataRule::conserve;
+  for (const bool splits : {false, true}) {
+    MeshFile file = file_with_data(splits ? *horseshoe() : *random_mesh({.vertices = 150, .seed = 3}));
+    file.triangles.tags.clear();
+    for (const auto& corners : file.triangles) {
+      const double middle =
+          file.points[static_cast<std::size_t>(corners[0])].x + file.points[static_cast<std::size_t>(corners[1])].x;
+      file.triangles.tags.push_back(middle < 4 ? 1 : 2);
+    }
+    const MeshFile original = file;
+    const auto loaded = make_mesh(file);
+    ASSERT_TRUE(loaded);
+    Mesh mesh = loaded->mesh;
+    OptimizeOptions options;
+    if (splits) options.boundary = BoundaryVertices::split;
+    const auto run = optimize(mesh, options);
+    ASSERT_TRUE(run);
+    const DataReport report = update(file, *loaded, mesh, run->vertices, {points, nullptr, cells});
+    EXPECT_EQ(report.conserved, (std::vector<std::string>{"depth", "coarse", "id"}));
+    EXPECT_EQ(report.conserved_of_triangles, std::vector<std::string>{"east"});
+    EXPECT_EQ(report.of_triangles, std::vector<std::string>{"triangle"});
+    EXPECT_LT(report.integral_change, 1e-14);
+    EXPECT_EQ(report.out_of_range, 0);
+    const auto expect_same = [](const auto& before, const auto& after, double rounding) {
+      ASSERT_EQ(before.size(), after.size());
+      for (const auto& [region, sum] : before) EXPECT_NEAR(after.at(region), sum, 1e3 * rounding);  // values to 100
+    };
+    for (const char* name : {"depth", "id"}) {
+      expect_same(integrals_of(loaded->mesh, values<double>(original.point_data, name), true),
+                  integrals_of(mesh, values<double>(file.point_data, name), true), kRounding);
+    }
+    const auto& former = values<float>(original.point_data, "coarse");
+    const auto& now = values<float>(file.point_data, "coarse");
+    for (const std::size_t k : {0u, 1u}) {
+      expect_same(integrals_of(loaded->mesh, {former.begin(), former.end()}, true, 2, k),
+                  integrals_of(mesh, {now.begin(), now.end()}, true, 2, k), kFloatRounding);
+    }
+    expect_same(integrals_of(loaded->mesh, values<double>(original.triangles.data, "east"), false),
+                integrals_of(mesh, values<double>(file.triangles.data, "east"), false), kRounding);
+    const auto [least, most] = std::ranges::minmax(values<double>(original.triangles.data, "east"));
+    for (const double x : values<double>(file.triangles.data, "east")) EXPECT_TRUE(x >= least && x <= most);
+  }
+}
+
+TEST(ConservedData, WithAMissingValueAreInterpolatedOrSampledWithAWarning) {
+  MeshFile file = file_with_data();
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::get<std::vector<double>>(file.point_data[0].values)[3] = kNone;
+  std::get<std::vector<double>>(file.triangles.data[1].values)[3] = kNone;
+  DataRules rules;
+  rules.rule = DataRule::conserve;
+  const auto loaded = make_mesh(file);
+  Mesh mesh = loaded->mesh;
+  ASSERT_TRUE(optimize(mesh, {}));
+  const DataReport report = update(file, *loaded, mesh, {}, {rules, nullptr, rules});
+  EXPECT_EQ(report.interpolated, std::vector<std::string>{"depth"});
+  EXPECT_EQ(report.conserved, (std::vector<std::string>{"coarse", "id"}));
+  EXPECT_EQ(report.of_triangles, (std::vector<std::string>{"triangle", "east"}));
+  EXPECT_EQ(file.warnings,
+            (std::vector<std::string>{
+                "'east' has a value that is not finite, so it is sampled, and its integrals change",
+                "'depth' has a value that is not finite, so it is interpolated, and its integrals change"}));
 }
 
 TEST(DataUpdate, AMissingValueSpreadsHalfWayToTheNextCorners) {
