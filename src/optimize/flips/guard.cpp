@@ -19,6 +19,13 @@ constexpr double kLeastDepth = 1;  // [m]: on dry land waves need a speed, too
 /// 1 + cosine of the angle between two edges, across from the third. All lengths are squared.
 double cosine_of(double across, double p, double q) { return 1 + (p + q - across) / (2 * std::sqrt(p * q)); }
 
+/// Says that the ratio of two angles is at least a limit, from their cosines alone, or does not know. An angle x has
+/// 2 s ≤ x ≤ π s, where s is the sine of x/2, and 2 s² = 1 − cos x.
+bool is_ratio_surely_at_least(double limit, double cosine, double cosine_of_larger) {
+  constexpr double kRounding = 1e-9, kBound = 4 / (std::numbers::pi * std::numbers::pi);
+  return limit > 0 && kBound * (1 - cosine) >= (1 + kRounding) * limit * limit * (1 - cosine_of_larger);
+}
+
 }  // namespace
 
 Guard::Guard(const Mesh& mesh, const WorkingUnits& units, std::shared_ptr<const GuardLimits> limits, bool in_copy)
@@ -75,7 +82,7 @@ Guard::Triangle Guard::triangle(TriangleId id) const {
   return t;
 }
 
-GuardValues Guard::alone(const Triangle& t) const {
+GuardValues Guard::alone(const Triangle& t, const GuardValues& limits) const {
   if (t.diagonal) return {};  // a quadrilateral stays as it is, and half of it has other angles
   const auto [least, most] = std::minmax({t.l2[0], t.l2[1], t.l2[2]});
   const double middle = t.l2[0] + t.l2[1] + t.l2[2] - least - most;
@@ -86,8 +93,9 @@ GuardValues Guard::alone(const Triangle& t) const {
   v.value[GuardValues::shortest] = units_.scale * units_.scale * least;
   if (limits_->has_cells) {
     v.value[GuardValues::edges_alike] = least / most;
-    v.value[GuardValues::angles_alike] =
-        arc_cosine(cosine_of(least, middle, most) - 1) / arc_cosine(cosine_of(most, least, middle) - 1);
+    const double cosine = cosine_of(least, middle, most) - 1, of_largest = v.value[GuardValues::cosine] - 1;
+    if (!is_ratio_surely_at_least(limits.value[GuardValues::angles_alike], cosine, of_largest))
+      v.value[GuardValues::angles_alike] = arc_cosine(cosine) / arc_cosine(of_largest);
   }
   if (!has_depth()) return v;
   const double slowness2 = units_.scale * units_.scale / (kGravity * t.depth);
@@ -151,9 +159,9 @@ GuardValues Guard::cells_around(VertexId v, bool moved) const {
   return values;
 }
 
-GuardValues Guard::around(TriangleId t, std::span<const TriangleId> except) const {
+GuardValues Guard::around(TriangleId t, const GuardValues& limits, std::span<const TriangleId> except) const {
   const Triangle shape = triangle(t);
-  GuardValues v = alone(shape);
+  GuardValues v = alone(shape, limits);
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId across = mesh_.twin(Mesh::halfedge(t, k));
     if (!across.valid() || mesh_.is_diagonal(across) ||
@@ -167,7 +175,7 @@ GuardValues Guard::around(TriangleId t, std::span<const TriangleId> except) cons
 
 GuardValues Guard::around(std::span<const TriangleId> triangles) const {
   GuardValues v;
-  for (const TriangleId t : triangles) v.take(around(t));
+  for (const TriangleId t : triangles) v.take(around(t, limits_->for_steps));
   return v;
 }
 
@@ -178,7 +186,7 @@ bool Guard::allows(std::span<const TriangleId> old, std::span<const Corners> fre
   shapes_.clear();
   for (const Corners& corners : fresh) {
     shapes_.push_back(triangle(corners, true));
-    after.take(alone(shapes_.back()));
+    after.take(alone(shapes_.back(), limits_->for_steps));
   }
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -211,7 +219,7 @@ bool Guard::allows_move(VertexId v, const WeightedPoint& p) {
     old_.push_back(Mesh::triangle(h));
     shapes_.push_back(triangle({v, mesh_.target(h), mesh_.opposite(h)}, true));
     const Triangle& t = shapes_.back();
-    after.take(alone(t));
+    after.take(alone(t, limits_->for_steps));
     if (shapes_.size() > 1) after.take(of_pair(t, 0, shapes_[shapes_.size() - 2]));
     const HalfedgeId across = mesh_.twin(Mesh::next(h));
     if (across.valid()) after.take(of_pair(t, 1, triangle(Mesh::triangle(across))));
@@ -262,7 +270,7 @@ void Guard::about_to_flip(HalfedgeId h) {
   const std::size_t n = touched_.size();
   for (const TriangleId t : {left, right}) {
     if (std::ranges::find(touched_, t) != touched_.end()) continue;
-    before_.take(around(t, std::span(touched_).first(n)));
+    before_.take(around(t, limits_->for_steps, std::span(touched_).first(n)));
     touched_.push_back(t);
   }
   if (!reads_stars()) return;
@@ -284,7 +292,7 @@ GuardValues Guard::worst(Executor* executor, std::span<const OutsideNeighbors> o
   std::vector<GuardValues> of_blocks((n + kLoopBlock - 1) / kLoopBlock);
   for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
     for (const TriangleId t : IdRange<TriangleId>(TriangleId(first), TriangleId(last))) {
-      if (!mesh_.is_erased(t)) of_blocks[first / kLoopBlock].take(around(t));
+      if (!mesh_.is_erased(t)) of_blocks[first / kLoopBlock].take(around(t, GuardValues()));
     }
   });
   GuardValues worst;
@@ -314,7 +322,7 @@ GuardValues Guard::across(HalfedgeId h, const WeightedPoint& beyond) const {
 
 std::size_t Guard::count_beyond(const GuardValues& limits, Executor* executor) const {
   return static_cast<std::size_t>(blockwise_sum(mesh_.n_triangles(), executor, [&](std::size_t i) {
-    return mesh_.is_erased(TriangleId(i)) || around(TriangleId(i)).are_within(limits) ? 0.0 : 1.0;
+    return mesh_.is_erased(TriangleId(i)) || around(TriangleId(i), limits).are_within(limits) ? 0.0 : 1.0;
   }));
 }
 

@@ -103,12 +103,14 @@ class Guard {
   /// A triangle of the mesh; or of plans, where the vertex `moving_` (invalid: a new one) is at `place_`.
   [[nodiscard]] Triangle triangle(const Corners& corners, bool of_plan = false) const;
   [[nodiscard]] Triangle triangle(TriangleId t) const;
-  [[nodiscard]] GuardValues alone(const Triangle& t) const;
+  /// The values that are not below `limits` may be infinite: most need no inverse cosine to show that.
+  [[nodiscard]] GuardValues alone(const Triangle& t, const GuardValues& limits) const;
   /// Returns the values of two triangles that share edge k of s.
   [[nodiscard]] GuardValues of_pair(const Triangle& s, std::size_t k, const Triangle& t) const;
   [[nodiscard]] FlowLink link_across(const Triangle& s, std::size_t k, const Triangle& t) const;
   /// Returns the values of t and of its pairs with neighbors, except those that are listed.
-  [[nodiscard]] GuardValues around(TriangleId t, std::span<const TriangleId> except = {}) const;
+  [[nodiscard]] GuardValues around(TriangleId t, const GuardValues& limits,
+                                   std::span<const TriangleId> except = {}) const;
   [[nodiscard]] GuardValues around(std::span<const TriangleId> triangles) const;
   /// Returns the values of the cell of a vertex; if `moved`, with the vertex `moving_` at `place_`.
   [[nodiscard]] GuardValues cell(VertexId v, bool moved = false, const OutsideNeighbors* outside = nullptr) const;

@@ -1,7 +1,5 @@
 #include "optimize/flips/guard_values.hpp"
 
-#include <algorithm>
-
 namespace temper {
 namespace {
 
@@ -32,18 +30,6 @@ GuardValues scaled(GuardValues v, double factor) {
     v.value[measure] *= power == 2 ? factor * factor : power == 1 ? factor : 1 / factor;
   }
   return v;
-}
-
-void GuardValues::take(const GuardValues& other) {
-  for (std::size_t i = 0; i < kMeasures; ++i) value[i] = std::min(value[i], other.value[i]);
-}
-
-/// Values that are infinite before hold only within the limits.
-bool GuardValues::hold(const GuardValues& before, const GuardValues& limits) const {
-  for (std::size_t i = 0; i < kMeasures; ++i) {
-    if (value[i] < before.value[i] && value[i] < limits.value[i]) return false;
-  }
-  return true;
 }
 
 }  // namespace temper

@@ -1,6 +1,7 @@
 // The measures of the guard (guard.hpp).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -31,9 +32,17 @@ struct GuardValues {
 
   GuardValues() { value.fill(std::numeric_limits<double>::infinity()); }
   /// Takes the worse of the two, measure by measure.
-  void take(const GuardValues& other);
-  /// Says whether no measure is worse than here and beyond the limit.
-  [[nodiscard]] bool hold(const GuardValues& before, const GuardValues& limits) const;
+  void take(const GuardValues& other) {
+    for (std::size_t i = 0; i < kMeasures; ++i) value[i] = std::min(value[i], other.value[i]);
+  }
+  /// Says whether no measure is worse than before and beyond the limit. Values that are infinite before hold only
+  /// within the limits.
+  [[nodiscard]] bool hold(const GuardValues& before, const GuardValues& limits) const {
+    for (std::size_t i = 0; i < kMeasures; ++i) {
+      if (value[i] < before.value[i] && value[i] < limits.value[i]) return false;
+    }
+    return true;
+  }
   /// Says whether no measure is beyond the limit.
   [[nodiscard]] bool are_within(const GuardValues& limits) const { return hold(GuardValues(), limits); }
 };

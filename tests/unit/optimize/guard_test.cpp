@@ -1,9 +1,13 @@
 // The guard: no run makes an angle, an edge, the ratio of areas, the time of a wave or a measure of the client worse
 // than in the input, or than a bound. All is measured here by other formulas.
+#include "optimize/flips/guard.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -159,6 +163,48 @@ TEST(Guard, KeepsTheMeasuresOfEachClient) {
     }
   }
   EXPECT_GT(better, 4u);
+}
+
+/// The least ratio of two angles of one triangle around a vertex, if it were at this place.
+double least_ratio_of_angles(const Mesh& mesh, VertexId v, Vec2 at) {
+  double least = 1;
+  for (const HalfedgeId h : mesh.star(v)) {
+    const Vec2 b = mesh.position(mesh.target(h)), c = mesh.position(mesh.opposite(h));
+    const auto angle = [](Vec2 p, Vec2 q, Vec2 r) {
+      return std::acos(dot(q - p, r - p) / (length(q - p) * length(r - p)));
+    };
+    const auto [smallest, largest] = std::minmax({angle(at, b, c), angle(b, c, at), angle(c, at, b)});
+    least = std::min(least, smallest / largest);
+  }
+  return least;
+}
+
+TEST(Guard, RefusesAWorseRatioOfAnglesBeyondTheLimitAlone) {
+  const Mesh mesh = *random_mesh({200, 5, {}});
+  const WorkingUnits units;
+  Rng rng(7);
+  std::size_t allowed = 0, refused = 0;
+  for (const double limit : {0.02, 0.1, 0.3}) {
+    const auto limits = std::make_shared<GuardLimits>();
+    limits->has_cells = true;
+    limits->for_steps.value.fill(-std::numeric_limits<double>::infinity());
+    limits->for_steps.value[GuardValues::angles_alike] = limit;
+    Guard guard(mesh, units, limits, true);
+    for (const VertexId v : mesh.vertices()) {
+      const WeightedPoint from = mesh.point(v);
+      const auto step = [&] { return 0.04 * (static_cast<double>(rng.below(1000)) / 500 - 1); };
+      const WeightedPoint to = {from.x + step(), from.y + step(), from.w};
+      const double before = least_ratio_of_angles(mesh, v, from.position()),
+                   after = least_ratio_of_angles(mesh, v, to.position());
+      guard.begin_step();
+      const bool may = guard.allows_move(v, to);
+      if (std::abs(after - limit) < kRounding || std::abs(after - before) < kRounding) continue;
+      EXPECT_EQ(may, after >= limit || after >= before) << v.index << " " << limit << " " << before << " " << after;
+      ++(may ? allowed : refused);
+    }
+  }
+  EXPECT_GT(allowed, 100u);
+  EXPECT_GT(refused, 100u);
 }
 
 /// A step of refinement between quadrilaterals, with a corner of the large one moved. All its triangles have a right
