@@ -405,8 +405,8 @@ struct DataReport {
   /// Names of cell data: sampled, and conserved.
   std::vector<std::string> of_triangles, conserved_of_triangles;
   /// Of conserved data: the largest change of an integral, over the integral of |u|; and how far a value is outside the
-  /// range of the former ones, over the largest |u|. The first is some roundings, and the second 0, unless the boundary
-  /// has moved or a region has no cell of its own.
+  /// range of the former ones, over the largest |u|. The first is only rounding, unless a region has no cell of its
+  /// own. The second is 0, unless the size of a region or of the domain has changed.
   double integral_change = 0, out_of_range = 0;
 };
 /// The rows for triangles, or for tetrahedra: there the keys say so.

@@ -1,15 +1,15 @@
 // A mesh that changes a little at a time, as in a simulation, and stays good.
 //
 //     auto optimizer = *Optimizer::make(std::move(mesh), *options_for("vertex"));
-//     auto first = optimizer.update();                    // makes the mesh good: a run of the whole mesh, if it must
-//     be for (int step = 0; step < n; ++step) {
+//     auto first = optimizer.update();                    // makes the mesh good, by a run over all of it if needed
+//     for (int step = 0; step < n; ++step) {
 //       for (VertexId v : front) optimizer.move(v, place_of(v, step));
 //       auto update = optimizer.update();                 // makes good what the moves have spoiled
-//       for (VertexId v : update->rows) assemble(optimizer.mesh(), v);
+//       for (VertexId v : update->difference.rows) assemble(optimizer.mesh(), v);
 //     }
 //
-// An update is a run with Change::least (temper/optimize.hpp), after the changes that wait for it. So it changes what
-// the criterion of the target asks for, near the changes. All else keeps its bits, and the update says what has not.
+// An update makes the changes that wait, and then runs with Change::least (temper/optimize.hpp). This run changes only
+// places that violate the criterion of the target. All else keeps its bits. The update lists what is different.
 #pragma once
 
 #include <cstddef>
@@ -50,8 +50,8 @@ struct WaitingChanges {
 /// What an update did.
 template <class Report, class CellId>
 struct UpdateOf {
-  /// Report of the run. Its input is the mesh with the changes that waited, but its numbers of vertices, faces and
-  /// lines are those after the last update.
+  /// Report of the run. Its input is the mesh with the changes that waited. But where the report lists former numbers
+  /// of vertices, faces and lines, they are those of the mesh after the last update.
   Report report;
   MeshDifference<CellId> difference;  ///< From the mesh after the last update, changes that waited included
 };
@@ -72,7 +72,8 @@ class OptimizerOf {
   // --- changes: they wait for update() --------------------------------------------------------------
   // Vertices have the numbers of mesh(). In the plane z has no meaning, and on the sphere the distance from its center.
 
-  /// Moves a vertex, any distance. A vertex on the boundary or on a line takes this with it.
+  /// Moves a vertex. With triangles the distance may be any. With tetrahedra it is an error if one would turn over. If
+  /// the vertex lies on the boundary or on a line, the boundary or the line moves with it.
   void move(VertexId v, Vec3 place) { waiting_.moved.emplace_back(v, place); }
   /// Gives a vertex a weight [length²].
   void set_weight(VertexId v, double weight) { waiting_.weighed.emplace_back(v, weight); }

@@ -477,8 +477,9 @@ class Mesh(Tagged):
     def point_data_rules(self) -> tuple[str, ...]:
         """Rules for floating point data of points when vertices move, in words. ``"interpolate"`` (the default): data
         belong to the place and are linear on the original triangles, so that a depth stays where it was measured.
-        ``"keep"``: data stay with their point. ``"keep=NAME"`` and ``"interpolate=NAME"`` are for one array. Integers
-        always stay with their points. Assigning one word or several replaces all rules. TemperError if an array does
+        ``"keep"``: data stay with their point. ``"conserve"``: data are means over power cells, and their integrals
+        stay. ``"keep=NAME"``, ``"interpolate=NAME"`` and ``"conserve=NAME"`` are for one array. Integers always stay
+        with their points. Assigning one word or several replaces all rules. TemperError if an array does
         not exist."""
         return tuple(_temper.data_rules(self._handle))
 

@@ -119,9 +119,10 @@ class Optimizer:
         self.forget()
 
     def move(self, vertices: npt.ArrayLike, points: npt.ArrayLike) -> None:
-        """Moves vertices (k,) to points (k, d) [length], any distance. d is 2 in the plane, 3 on a sphere and for
-        tetrahedra. All move at once, so that a flow may carry all points. A vertex on the boundary or on a line takes
-        this with it. The last place of a vertex counts."""
+        """Moves vertices (k,) to points (k, d) [length]. d is 2 in the plane, 3 on a sphere and for tetrahedra. In a
+        mesh of triangles, the distance may be any. In one of tetrahedra, no tetrahedron may turn over. All vertices
+        move at once, so that a flow may carry all points. If a vertex lies on the boundary or on a line, the boundary
+        or the line moves with it. If a vertex is given several times, its last point counts."""
         self._add_values("moved", "places", self._numbers(vertices), self._places(points), "points")
 
     def set_weights(self, vertices: npt.ArrayLike, weights: npt.ArrayLike) -> None:
@@ -158,8 +159,9 @@ class Optimizer:
         Raises
         ------
         TemperError
-            A vertex that the mesh has not, or that cannot be removed. A place that is not finite, outside the mesh, or
-            behind its boundary or a line. The mesh stays as it was, and all changes still wait: ``forget`` drops them.
+            A vertex is not in the mesh, or cannot be removed. A place is not finite, is outside the mesh, or is behind
+            its boundary or a line. A tetrahedron would turn over. The mesh stays as it was, and all changes still
+            wait. ``forget`` drops them.
         KeyboardInterrupt
             Ctrl-C stopped the update. The mesh has its changes, and is as good as it was by then.
 

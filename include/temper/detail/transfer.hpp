@@ -6,9 +6,9 @@
 //
 //     u_n = Σ |n ∩ o| u_o / |n|            n a new cell, o the former cells
 //
-//      +-------+-------+     The new cell n (dashed) overlaps the former cells a and b. What n takes from b, the cells
-//      |   a - | - b   |     around n leave: so no sum changes. A mean is between the least and the largest of its
-//      |  :  n |   :   |     values, and a cell that has not changed keeps its value, bit for bit.
+//      +-------+-------+     The new cell n (dashed) overlaps the former cells a and b. Each part of b goes to exactly
+//      |   a - | - b   |     one new cell, so the integral stays. A mean is between the least and the largest of its
+//      |  :  n |   :   |     values. A cell that has not changed keeps its value, bit for bit.
 //      |   - - | - -   |
 //      +-------+-------+
 //
@@ -60,16 +60,17 @@ struct Conserved {
   /// Largest change of the integral over a region or over the domain, over the integral of |u| there. Some roundings,
   /// unless a region has no cell of its own that could take what is missing.
   double change = 0;
-  /// Farthest that a value is outside the range of the former values, over the largest |u|. 0, unless the size of the
-  /// domain has changed.
+  /// Farthest that a value is outside the range of the former values, over the largest |u|. 0, unless the size of a
+  /// region or of the domain has changed.
   double beyond = 0;
 };
 
 /// Returns the values of the new cells for finite values of the former ones.
 ///
-/// What is missing in a region goes to cells that lie in it alone, in shares of how far each is from its bounds. These
-/// are first the least and the largest value that the cell has taken, then those of the region. What is then still
-/// missing goes to all cells in the same way. If even that is not enough, values are multiplied. O(n).
+/// The integral of a region may then lack an amount. It goes to cells that lie in this region alone. Each cell gets a
+/// share in proportion to the distance of its value from a bound. The bounds are first the least and the largest value
+/// that the cell has taken. Next they are those of the region. If this is not enough, and the size of the region has
+/// changed, each value changes in proportion to its magnitude. Then the domain gets the same treatment. O(n).
 [[nodiscard]] Conserved conserve(const CellOverlaps& overlaps, std::span<const double> former);
 
 }  // namespace temper

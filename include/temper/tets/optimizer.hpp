@@ -1,6 +1,6 @@
 // The Optimizer of meshes of tetrahedra: temper/optimizer.hpp, with a dimension more.
 //
-// Moves keep the connectivity. A vertex moves in one update no farther than its tetrahedra stay positive.
+// Moves keep the connectivity. If a tetrahedron would turn over, update() returns an error.
 #pragma once
 
 #include "temper/optimizer.hpp"

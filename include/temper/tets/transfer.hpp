@@ -12,10 +12,10 @@ enum class CellsOf : std::uint8_t {
   tetrahedra,  ///< Tetrahedra
 };
 
-/// Returns the overlaps of the cells of two meshes. A point of a tetrahedron belongs to the vertex with the least power
-/// distance among those that are reached from its corners, by edges through vertices that own some of the tetrahedron.
-/// In a well-centered mesh these cells have the volumes ★0. About O(n), with some dozen microseconds for each
-/// tetrahedron.
+/// Returns the overlaps of the cells of two meshes. A point of a tetrahedron belongs to the candidate to which its
+/// power is least. Candidates are the corners, and the neighbors by edges of each candidate that owns a part of the
+/// tetrahedron. In a well-centered mesh these cells have the volumes ★0. About O(n), with some dozen microseconds for
+/// each tetrahedron.
 [[nodiscard]] CellOverlaps overlaps(const TetMesh& before, const TetMesh& after, CellsOf of,
                                     Executor* executor = nullptr);
 
