@@ -24,7 +24,7 @@ done
 jobs=${TEMPER_TEST_JOBS:-$(nproc)}
 scratch=$(mktemp -d)
 builder=
-trap '[[ -z "$builder" ]] || kill -- "-$builder" 2>/dev/null; rm -rf "$scratch"' EXIT
+trap 'signal_builds TERM; signal_builds CONT; rm -rf "$scratch"' EXIT
 
 passed=0 failed=0 skipped=0
 failures=() times=()
@@ -51,6 +51,8 @@ stage() {
   fi
 }
 
+# signal_builds SIGNAL: sends it to the builds in the background, if there are any.
+signal_builds() { [[ -z "$builder" ]] || kill -s "$1" -- "-$builder" 2>/dev/null || true; }
 # suite NAME DIR ARGUMENT OF CTEST …: runs ctest there and counts its tests one by one; no test at all is a failure.
 suite() {
   local name=$1 dir=$2 start=$SECONDS counts
@@ -256,7 +258,10 @@ if stage "build (optimized, -Werror)" built optimized; then
   stage "the Python module is tested" grep -q 'add_test.*python.*pytest' build/dev/tests/python/CTestTestfile.cmake
   stage "pages: commands, numbers and pictures" /usr/bin/python3 scripts/docs/pages.py build/dev/apps/temper/temper
   stage "clients of the examples" light_clients
+  # Some of these tests limit the seconds of a processor, which grow on a busy machine.
+  signal_builds STOP
   suite "tests (optimized)" build/dev -L optimized -E '^pages$'
+  signal_builds CONT
   stage "consumer: install, find_package" consumer_find_package && suite "consumer: find_package runs" "$scratch/find_package"
 fi
 if [[ "$part" == all ]]; then sanitizers; fi
