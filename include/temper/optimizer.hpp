@@ -47,7 +47,7 @@ struct WaitingChanges {
   [[nodiscard]] bool empty() const { return moved.empty() && weighed.empty() && removed.empty() && inserted.empty(); }
 };
 
-/// What an update did.
+/// The result of an update.
 template <class Report, class CellId>
 struct UpdateOf {
   /// Report of the run. Its input is the mesh with the changes that waited. But where the report lists former numbers

@@ -59,7 +59,6 @@ struct Triangles {
   static auto& numbers_of(auto& found) { return found.vertices; }
   static auto& vertices(auto& numbers) { return numbers; }
   static auto& tensors_of(OptimizeReport& report) { return report.triangle_tensors; }
-  static Numbers before_both(const Numbers& last, const Numbers& before) { return numbers_before_both(last, before); }
   static std::array<VertexId, 2> vertices_of(const Mesh& mesh, HalfedgeId h) {
     return {mesh.origin(h), mesh.target(h)};
   }

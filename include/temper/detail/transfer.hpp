@@ -41,7 +41,7 @@ struct CellShare {
   double size = 0;
 };
 
-/// What the cells of two meshes of one domain have in common.
+/// The overlaps of the cells of two meshes of one domain.
 struct CellOverlaps {
   std::size_t n_cells = 0;          ///< Cells of the new mesh; each has at least one part
   std::vector<CellPart> parts;      ///< Parts of the new cells, ascending by cell and region

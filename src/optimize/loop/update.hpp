@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "optimize/options/settings.hpp"
+#include "optimize/run/numbers.hpp"
 #include "temper/detail/cell_kinds.hpp"
 #include "temper/optimizer.hpp"
 
@@ -21,15 +22,6 @@ struct ChangedMesh {
   MeshOf mesh;
   Numbers numbers = {};  ///< before the changes; empty if all are equal
 };
-
-/// The numbers before two changes of numbers.
-inline IdVector<VertexId, VertexId> composed(const IdVector<VertexId, VertexId>& first,
-                                             IdVector<VertexId, VertexId> second) {
-  if (second.empty()) return first;
-  if (first.empty()) return second;
-  for (VertexId& v : second) v = v.valid() ? first[v] : v;
-  return second;
-}
 
 template <class MeshOf, class Hooks, class Report, class CellId>
 auto OptimizerOf<MeshOf, Hooks, Report, CellId>::make(MeshOf mesh, OptimizeOptions options) -> Expected<OptimizerOf> {
@@ -48,7 +40,7 @@ auto OptimizerOf<MeshOf, Hooks, Report, CellId>::update(const Hooks& hooks, cons
   Update update;
   update.report = *std::move(report);
   auto& numbers = numbers_of(update.report);
-  numbers = composed(next->numbers, std::move(numbers));
+  numbers = numbers_before_both(numbers, next->numbers);
   update.difference = difference(mesh_, next->mesh, numbers);
   mesh_ = std::move(next->mesh);
   waiting_ = {};

@@ -20,26 +20,13 @@
 #include "base/sort_unique.hpp"
 #include "feasibility/demand.hpp"
 #include "optimize/run/end_of_run.hpp"
+#include "optimize/run/numbers.hpp"
 #include "temper/detail/criterion.hpp"
 #include "temper/detail/tensor.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
-
-/// Numbers of parts of a mesh before two changes: `last` in the mesh between, `before` of that one. Empty: the same.
-template <class Numbers>
-[[nodiscard]] Numbers numbers_before_both(const Numbers& last, const Numbers& before) {
-  if (last.empty() || before.empty()) return last.empty() ? before : last;
-  Numbers result;
-  for (const auto number : last) {
-    if constexpr (requires { number.valid(); })
-      result.push_back(number.valid() ? before[number] : number);
-    else
-      result.push_back(before[number]);
-  }
-  return result;
-}
 
 /// Cells is a kind of cells, in the way of Triangles in src/optimize/tensors.cpp: types of meshes and reports, and the
 /// parts of a run that differ.
@@ -133,7 +120,7 @@ class RunInPieces {
         best([&](const typename Cells::BestSoFar& found) {
           const Numbers& there = Cells::numbers_of(found);
           const Pieces pieces = with_mesh(now_.pieces, found.mesh, Cells::vertices(there));
-          Numbers numbers = Cells::before_both(there, now_.numbers);
+          Numbers numbers = numbers_before_both(there, now_.numbers);
           auto whole = mapped_back(pieces, original_, first_, Cells::vertices(numbers));
           if (!whole) return;
           Cells::vertices(numbers) = std::move(whole->vertices);
@@ -160,7 +147,7 @@ class RunInPieces {
     if (!report) return report;
     const Numbers& numbers = Cells::numbers_of(*report);
     now_.pieces = with_mesh(now_.pieces, std::move(there), Cells::vertices(numbers));
-    now_.numbers = Cells::before_both(numbers, now_.numbers);
+    now_.numbers = numbers_before_both(numbers, now_.numbers);
     return report;
   }
 
@@ -184,7 +171,7 @@ class RunInPieces {
     const auto numbers = so_far == nullptr ? cells_.change_seams(now_.pieces)
                                            : cells_.change_seams_at_bad(now_.pieces, whole, must_stop);
     if (!numbers) return false;
-    now_.numbers = Cells::before_both(*numbers, now_.numbers);
+    now_.numbers = numbers_before_both(*numbers, now_.numbers);
     cells_.settle_weights(now_.pieces.mesh);
     return true;
   }

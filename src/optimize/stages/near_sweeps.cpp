@@ -14,7 +14,7 @@ namespace {
 
 // γ/ℓ of the first sweep, its factor from sweep to sweep, and its least value, as in trials of repairs.
 constexpr double kFirstNearGamma = 0.5, kNearFactor = 0.7, kLeastNearGamma = 0.003;
-// Flips reach triangles that no swept vertex has: so many rings around those are looked at after a sweep.
+// A flip may change triangles beside those of the swept vertices. A check after a sweep includes this many more rings.
 constexpr int kRingsOfFlips = 1;
 
 constexpr NearStep kNearSteps[] = {{-1, true, 4}, {-1, false, 8}, {0, false, 8}, {1, false, 16}};

@@ -6,6 +6,7 @@
 
 #include "base/sort_unique.hpp"
 #include "optimize/loop/update.hpp"
+#include "tets/optimize/origins.hpp"
 #include "tets/optimize/waiting.hpp"
 
 namespace temper {
@@ -13,16 +14,6 @@ namespace tets {
 
 static CellKinds kinds_of(const TetMesh& /*mesh*/) { return CellKinds::tetrahedra; }
 static Origins& numbers_of(OptimizeReport& report) { return report.origins; }
-
-/// The parts before two changes of numbers.
-static Origins composed(const Origins& first, Origins second) {
-  if (second.vertices.empty()) return first;
-  if (first.vertices.empty()) return second;
-  second.vertices = temper::composed(first.vertices, std::move(second.vertices));
-  for (std::uint32_t& f : second.faces) f = first.faces[f];
-  for (std::uint32_t& l : second.lines) l = first.lines[l];
-  return second;
-}
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include "optimize/run/run_in_pieces.hpp"
 #include "temper/tets/tensor.hpp"
 #include "temper/tets/weights.hpp"
+#include "tets/optimize/origins.hpp"
 #include "tets/optimize/seam_slide.hpp"
 #include "tets/optimize/violations.hpp"
 
@@ -35,10 +36,6 @@ struct Tetrahedra {
   static auto& numbers_of(auto& found) { return found.origins; }
   static auto& vertices(auto& numbers) { return numbers.vertices; }
   static auto& tensors_of(OptimizeReport& report) { return report.tetrahedra_tensors; }
-  static Origins before_both(const Origins& last, const Origins& before) {
-    return {numbers_before_both(last.vertices, before.vertices), numbers_before_both(last.faces, before.faces),
-            numbers_before_both(last.lines, before.lines)};
-  }
   static std::array<VertexId, 3> vertices_of(const TetMesh& mesh, HalffaceId h) { return mesh.vertices(h); }
 
   Expected<OptimizeReport> run(TetMesh& there, const std::vector<VertexId>& frozen) const {
