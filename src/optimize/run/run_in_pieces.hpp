@@ -40,12 +40,12 @@ class RunInPieces {
   using Report = typename Cells::Report;
   using Faults = std::pair<std::size_t, std::size_t>;
 
-  RunInPieces(const Mesh& original, Pieces pieces, const OptimizeOptions& options, const Hooks& hooks,
+  RunInPieces(const Mesh& original, Pieces pieces, OptimizeOptions options, const Hooks& hooks,
               const typename Cells::Run& run)
       : original_(original),
         first_(std::move(pieces)),
         now_{first_, {}},
-        options_(options),
+        options_(std::move(options)),
         hooks_(hooks),
         cells_{options_, hooks_, run} {
     options_.tensor.reset();
@@ -58,6 +58,7 @@ class RunInPieces {
   }
   RunInPieces(const RunInPieces&) = delete;
   RunInPieces& operator=(const RunInPieces&) = delete;
+  ~RunInPieces() = default;
 
   /// Runs, and puts the result in the place of the mesh.
   Expected<Report> run(Mesh& mesh) {
