@@ -151,6 +151,7 @@ std::vector<typename Subject::Tensor> from_data(const TensorOption& option, cons
                               n_axes == 2 ? "k11,k22,angle1" : "k11,k22,k33,angle1[,angle2[,angle3]]", names.size()));
   }
   std::vector<std::vector<double>> columns;
+  columns.reserve(names.size());
   for (const std::string& name : names)
     columns.push_back(as_doubles(find_data(input, name, is_one ? static_cast<int>(n_components) : 1)));
   std::vector<K> tensors;
@@ -284,6 +285,7 @@ std::optional<MetricViewOf<Subject>> take_to_metric(InputOf<Subject>& input, con
   return view;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): the name of a type has none
 #define TEMPER_MAKE(S)                                                                                    \
   template std::vector<S::Tensor> tensors_of(const TensorOption&, const InputOf<S>&);                     \
   template S::Pieces in_metric(const S::Mesh&, const std::vector<S::Tensor>&, const std::vector<double>&, \
@@ -292,6 +294,7 @@ std::optional<MetricViewOf<Subject>> take_to_metric(InputOf<Subject>& input, con
   template void warn_without(const TensorOption&, const InputOf<S>&);                                     \
   template std::optional<S::Pieces> metric_of(const InputOf<S>&, const TensorOption&);                    \
   template std::optional<MetricViewOf<S>> take_to_metric(InputOf<S>&, const TensorOption&);
+// NOLINTEND(bugprone-macro-parentheses)
 TEMPER_EACH_SUBJECT(TEMPER_MAKE)
 #undef TEMPER_MAKE
 
