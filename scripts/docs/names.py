@@ -1,4 +1,5 @@
-"""Makes the tables of docs/reference/names.md, the names of the program, Python and C++ side by side: hooks.py puts them into the site.
+"""Makes the tables of docs/reference/names.md, the names of the program, Python and C++ side by side, and the fields of errors.md: hooks.py
+puts them into the site.
 
 Names come from where they are declared: the help of the program, the module's tables and signatures, the headers. By hand are only
 the rows below, where the three differ.
@@ -137,6 +138,12 @@ def other_options(program):
     return [*known, "", *textwrap.wrap(f"The program alone has {', '.join(dict.fromkeys(alone))}.", 120, break_on_hyphens=False)]
 
 
+def fields_table(_program):
+    """The fields of docs/reference/errors.md."""
+    rows = [f"| `{field.name}` | {field.group} | `{field.formula}` |" for field in temper.error_fields()]
+    return ["| name | group | u(x, y) |", "|-|-|-|", *rows]
+
+
 def verbs_table(program):
     listed = re.search(r"^Verbs:\n(.*?)\n\n", printed(program, "--help"), re.M | re.S)[1]
     verbs = re.findall(r"^  (\w+) ", listed, re.M)
@@ -171,8 +178,8 @@ def filled(page):
     return MARK.sub(lambda mark: "\n".join([mark[0], *TABLES[mark[1]]("temper"), ""]), page)
 
 
-TABLES = {"verbs": verbs_table, "members": options_table, "other options": other_options}
-MARK = re.compile(r"^<!-- names of (verbs|members|other options) -->\n", re.M)
+TABLES = {"verbs": verbs_table, "members": options_table, "other options": other_options, "fields": fields_table}
+MARK = re.compile(r"^<!-- names of (verbs|members|other options|fields) -->\n", re.M)
 
 
 def check(program):

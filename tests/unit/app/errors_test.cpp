@@ -249,16 +249,5 @@ TEST_F(Errors, BadUsageIsRefusedAndNothingIsWritten) {
   EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
 }
 
-TEST_F(Errors, TheDocsListTheFieldsAndTheirGroups) {
-  make_input();
-  const std::string page = read(TEMPER_SOURCE_DIR "/docs/reference/errors.md");
-  const auto json = nlohmann::json::parse(temper_ok({"errors", "in.vtu", "--fields", "all,exact", "--json"}).out);
-  ASSERT_EQ(json["errors"]["fields"].size(), 10u);
-  for (const auto& field : json["errors"]["fields"]) {
-    EXPECT_TRUE(
-        contains(page, "| `" + field["name"].get<std::string>() + "` | " + field["group"].get<std::string>() + " | "));
-  }
-}
-
 }  // namespace
 }  // namespace temper::test
