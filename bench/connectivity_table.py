@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Point sets that temper.best_connectivity decides: the table of docs/explanation/measured.md.
+"""Point sets that temper.best_connectivity decides: results of docs/explanation/measured.md.
 
     bench/connectivity_table.py [--time-limit SECONDS] [--sets N] [--most-points N] [DIRECTORY ...]
 

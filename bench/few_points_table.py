@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Vertices that temper mesh --points few adds in so many seconds: the table of docs/explanation/measured.md.
+"""Vertices that temper mesh --points few adds in so many seconds: results of docs/explanation/measured.md.
 
     bench/few_points_table.py [--most SECONDS]
 
