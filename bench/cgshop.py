@@ -4,6 +4,8 @@
     cgshop.py poly INSTANCE OUT.poly      the outline, as temper mesh reads it
     cgshop.py cdt INSTANCE OUT.vtu        its constrained Delaunay triangulation (needs temper's Python module)
     cgshop.py solution SOLUTION OUT.vtu   the mesh of a solution that lies beside its instance, for pictures
+    cgshop.py label PICTURE LEFT RIGHT    puts these numbers of new vertices over both meshes of a picture, which is from
+                                          `temper draw MESH.vtu --before WINNERS.vtu`; `judge` prints the right one
     cgshop.py judge INSTANCE MESH.vtu     verdict about a mesh, in rational arithmetic, without temper
     cgshop.py run DIRECTORY [options] [-- options of temper]
                                           runs all instances of a directory and prints a table
@@ -123,6 +125,24 @@ def write_solution(path: Path, out: Path) -> None:
         lines += [edge for edge in solution["edges"] if on_it.issuperset(edge)]
     mesh = temper.Mesh(np.array(points, float), triangles, constrained_edges=np.array(lines, int).reshape(-1, 2))
     temper.write(out, mesh)
+
+
+HEADING = re.compile(r"<text ([^>]*)>(?:(?!</text>).)*(?:before|after):.*?</text>\n")
+TICK = re.compile(r'<path d="M0 0l0.25 0.3 0.5-0.8".*?/>\n')
+
+
+def label(picture: Path, left: str, right: str) -> None:
+    """Replaces the numbers of bad triangles, since right angles do not count in the challenge."""
+    names = iter((("the winners", left), ("temper", right)))
+
+    def heading(match: re.Match[str]) -> str:
+        name, count = next(names)
+        return f'<text {match[1]}>{name}: <tspan font-weight="bold">{count}</tspan> new vertices</text>\n'
+
+    text, found = HEADING.subn(heading, TICK.sub("", picture.read_text()))
+    if found != 2:
+        sys.exit(f"{picture}: has {found} headings of temper draw --before, expected 2")
+    picture.write_text(text)
 
 
 # --- meshes --------------------------------------------------------------------------------------------
@@ -313,6 +333,9 @@ def main() -> int:
         sub = verbs.add_parser(verb)
         sub.add_argument("given", type=Path)
         sub.add_argument("other", type=Path, metavar=other)
+    title = verbs.add_parser("label")
+    title.add_argument("given", type=Path)
+    title.add_argument("counts", nargs=2)
     run = verbs.add_parser("run")
     run.add_argument("directory", help="folder with the instances and best_known.csv")
     run.add_argument("--start", choices=["outline", "cdt"], default="outline")
@@ -333,6 +356,9 @@ def main() -> int:
         return run_all(args)
     if args.verb == "solution":
         write_solution(args.given, args.other)
+        return 0
+    if args.verb == "label":
+        label(args.given, *args.counts)
         return 0
     instance = read_instance(args.given)
     if args.verb == "judge":

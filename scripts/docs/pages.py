@@ -43,7 +43,7 @@ NOT_RUN = ("docs/internals/",)  # commands of developers
 MEASURED = "docs/explanation/measured.md"  # has the table of results
 # Pictures that no page can make, and what makes them.
 DRAWN_ELSEWHERE = {
-    **{f"few-points-{i}.svg": "bench/cgshop.py, and `temper draw --before`: the outlines are not in the repository" for i in (1, 2, 3)},
+    **{f"few-points-{i}.svg": "bench/cgshop.py label, after `temper draw --before`: the outlines are not in the repository" for i in (1, 2, 3)},
     "report.jpg": "Chromium shows a report: scripts/docs/report_picture.py",
     "signs.svg": "drawn by hand: symbols, no numbers",
 }
