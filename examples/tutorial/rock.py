@@ -3,12 +3,14 @@
 import numpy as np
 import porepy
 import pyvista
+from PIL import Image
 from scipy.sparse.linalg import spsolve
 
 BLOCK = porepy.Domain({"xmin": 0, "xmax": 100, "ymin": 0, "ymax": 60, "zmin": 0, "zmax": 40})  # meters
 CONDUCTIVITY = {"rock": 1e-6, "sand": 1e-5}  # m/s
 APERTURE = 1e-3  # of the fracture, in meters
 OPEN = 9.81 * APERTURE**2 / (12 * 1e-6)  # conductivity between two smooth plates
+MARGIN = 13  # pixels of a picture below what is painted
 
 
 class Flow(porepy.SinglePhaseFlow):
@@ -61,5 +63,7 @@ def draw(file, cut, name, fracture, **options):
     faces = pyvista.make_tri_mesh(np.array(fracture.points), np.array(fracture.tagged_faces))
     plotter.add_mesh(faces, color="orange", **shown)
     plotter.camera_position = [(50, -96, 56), (50, 30, 10), (0, 0, 1)]
-    plotter.screenshot(file)
+    image = plotter.screenshot(None, return_img=True)
     plotter.close()
+    painted = np.flatnonzero((image < 255).any(axis=(1, 2)))
+    Image.fromarray(image[: painted[-1] + MARGIN]).save(file)  # without a bar, nothing is painted below
