@@ -41,6 +41,12 @@ function misses(measure: Measure, value: unknown, isOfTetrahedra: boolean): bool
 /** Infinite: of what is to be large nothing was there to be measured. */
 const measured = (measure: Measure, value: unknown): string => (value === null && measure.better === 'larger' ? '–' : number(value));
 
+/** A label with spaces before it goes on from the row above. */
+function title({ label, definition }: Measure): HTMLElement {
+  const continues = label.startsWith(' ');
+  return make('th', { scope: 'row', class: continues ? 'continued' : '', title: definition }, continues ? label.trim() : capital(label));
+}
+
 /** The measures of meshes as such, and, folded up, those of each community that runs codes on them. */
 export function summary(report: Report, measures: Measure[], isOfTetrahedra: boolean): void {
   const { before, after } = report;
@@ -50,7 +56,7 @@ export function summary(report: Report, measures: Measure[], isOfTetrahedra: boo
     return make('td', { class: misses(measure, value, isOfTetrahedra) ? 'is-bad' : old ? 'was' : '' }, measured(measure, value));
   };
   const row = (measure: Measure): (HTMLElement | string)[] => [
-    make('th', { scope: 'row', title: measure.definition }, capital(measure.label)),
+    title(measure),
     ...(before ? [cell(before, measure, true)] : []),
     cell(after, measure, false),
   ];
