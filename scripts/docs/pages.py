@@ -47,6 +47,7 @@ DRAWN_ELSEWHERE = {
     "report.jpg": "Chromium shows a report: scripts/docs/report_picture.py",
     "signs.svg": "drawn by hand: symbols, no numbers",
 }
+DOTS = {"ring-worst.svg": (429.2, 385.5)}  # where a reader of the page should look, in pixels of the picture
 COLUMNS = ("before", "energy", "default", "accuracy", "for")  # of `results`, which a benchmark leaves
 HEAD = ["page", "client", "measured", "before", "energy", "`optimize`", "accuracy", "`--for`"]
 TABLE = re.compile(r"(?<=<!-- written by scripts/clients.sh --write -->\n)(?:\|.*\n)*(?=<!-- end -->)")
@@ -134,6 +135,15 @@ def same_picture(old, new, suffix):
     return a.shape == b.shape and float(abs(a - b).mean()) < 0.01
 
 
+def dotted(name, picture):
+    """A picture of temper draw, with a dot if a page wants one."""
+    if name not in DOTS:
+        return picture
+    x, y = DOTS[name]
+    dot = f'<circle cx="{x}" cy="{y}" r="8" fill="#c83a00" stroke="#ffffff" stroke-width="3"/>\n'
+    return picture.replace(b"</svg>", dot.encode() + b"</svg>")
+
+
 def version(tool):
     """Of a module, or of mf6; nothing for what is temper's own."""
     if tool == "program mf6":
@@ -173,7 +183,7 @@ class Page:
             except subprocess.TimeoutExpired:
                 said = {"error": (1, f"runs for more than {seconds} s")}
             self.__dict__.update(said, seconds=time.monotonic() - start)
-            self.pictures = {name: (scratch / name).read_bytes() for name in wanted if (scratch / name).is_file()}
+            self.pictures = {name: dotted(name, (scratch / name).read_bytes()) for name in wanted if (scratch / name).is_file()}
 
     def skipped(self):
         return list(dict.fromkeys(name for names in self.lacks for name in names))
