@@ -380,13 +380,13 @@ class OptimizeReport(_looks.OptimizeReport):
     bad_before: int
     """Number of triangles or tetrahedra of the input that are not well-centered, before any flip."""
     bad_after: int
-    """The same number of the result."""
+    """Number of these in the result."""
     vertices: npt.NDArray[np.int32]
     """Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted."""
     size: SizeChange | None
     """Change of the sizes; absent for tetrahedra."""
     changed: ChangeCounts | None
-    """What the run changed, with change = least."""
+    """Changes of the run, with change = least."""
     notes: list[str]
     """Notes for the user, in sentences."""
     history: list[SweepRecord] = dataclasses.field(repr=False)
@@ -477,8 +477,8 @@ class DataReport(Record):
     """Largest change of the integral of conserved data over the domain or a region, over the integral of \\|u\\|
     there."""
     out_of_range: float
-    """How far conserved data are outside the range of the file's, over the largest \\|u\\|; 0 unless the boundary
-    moved."""
+    """Largest distance of conserved data from the range of the file's data, over the largest \\|u\\|; 0 unless the
+    boundary moved."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -992,8 +992,8 @@ class TetDataReport(Record):
     """Largest change of the integral of conserved data over the domain or a region, over the integral of \\|u\\|
     there."""
     out_of_range: float
-    """How far conserved data are outside the range of the file's, over the largest \\|u\\|; 0 unless the boundary
-    moved."""
+    """Largest distance of conserved data from the range of the file's data, over the largest \\|u\\|; 0 unless the
+    boundary moved."""
 
 
 CLASSES["TetOptimizeReport"] = OptimizeReport

@@ -28,7 +28,8 @@ ReportTable data_table(std::string_view name, std::array<std::string_view, 4> ke
         "Largest change of the integral of conserved data over the domain or a region, over the integral of |u| there",
         "", &R::integral_change},
        {"out_of_range",
-        "How far conserved data are outside the range of the file's, over the largest |u|; 0 unless the boundary moved",
+        "Largest distance of conserved data from the range of the file's data, over the largest |u|; 0 unless the "
+        "boundary moved",
         "", &R::out_of_range}});
 }
 

@@ -34,10 +34,10 @@ template <class R>
        {"flips", "Number of changes of connectivity without a new or removed vertex", "", &R::flips},
        {"bad_before", "Number of triangles or tetrahedra of the input that are not well-centered, before any flip", "",
         &R::bad_before, ShownIn::libraries},
-       {"bad_after", "The same number of the result", "", &R::bad_after, ShownIn::libraries}});
+       {"bad_after", "Number of these in the result", "", &R::bad_after, ShownIn::libraries}});
   table.rows.insert(table.rows.end(), more.begin(), more.end());
   const Field<R> last[] = {
-      {"changed", "What the run changed, with change = least", "", &R::changed, ShownIn::if_any},
+      {"changed", "Changes of the run, with change = least", "", &R::changed, ShownIn::if_any},
       {"notes", "Notes for the user, in sentences", "",
        [](const R& r) {
          std::vector<TextWithOptions> notes;

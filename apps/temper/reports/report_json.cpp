@@ -23,7 +23,7 @@ const ReportTable& table_of(const Outcome*) {
 
 const ReportTable& table_of(const Verdict*) {
   static const ReportTable table =
-      report_table<Verdict>("Verdict", "What a target asks for, and how often the mesh violates it.",
+      report_table<Verdict>("Verdict", "Criterion of a target, and the number of its violations in the mesh.",
                             {{"target", "Target of --for", "", &Verdict::target},
                              {"criterion", "Criterion of the target: well_centered, coefficients or distances", "",
                               [](const Verdict& v) { return std::string(name(v.criterion)); }},

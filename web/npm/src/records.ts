@@ -209,13 +209,13 @@ export interface OptimizeReport {
   flips: number;
   /** Number of triangles or tetrahedra of the input that are not well-centered, before any flip. */
   bad_before: number;
-  /** The same number of the result. */
+  /** Number of these in the result. */
   bad_after: number;
   /** Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted. */
   vertices: number[];
   /** Change of the sizes; absent for tetrahedra. */
   size: SizeChange;
-  /** What the run changed, with change = least. */
+  /** Changes of the run, with change = least. */
   changed: ChangeCounts | null;
   /** Notes for the user, in sentences. */
   notes: string[];
