@@ -22,8 +22,9 @@ def main():
         run(program, "example", "annulus", "-o", "ring.vtu")
         run(program, "optimize", "ring.vtu", "-o", "better.vtu", "--write", "report.html")
         page = (pathlib.Path(folder) / "report.html").as_uri()
-        # Chromium draws WebGL without a graphics card. The budget is the page's own time until the picture.
-        run("chromium", "--headless", "--no-sandbox", "--hide-scrollbars", "--enable-unsafe-swiftshader", "--virtual-time-budget=10000",
+        # Chromium draws WebGL without a graphics card, and waits for it. The budget is the page's own time until the picture.
+        run("chromium", "--headless", "--no-sandbox", "--hide-scrollbars", "--enable-unsafe-swiftshader",
+            "--run-all-compositor-stages-before-draw", "--virtual-time-budget=10000",
             f"--window-size={SIZE[0]},{SIZE[1]}", "--screenshot=report.png", page)  # fmt: skip
         Image.open(pathlib.Path(folder) / "report.png").convert("RGB").save(FIGURE, quality=85)
 
