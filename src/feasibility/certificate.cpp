@@ -249,7 +249,20 @@ class SphereTerms {
   double radius_;
 };
 
+bool are_of(const Mesh& mesh, std::span<const SeamEdge> seams, const Certificate& certificate) {
+  const bool outer = assumes_reach(certificate.constraints);
+  return std::all_of(certificate.terms.begin(), certificate.terms.end(), [&](const Certificate::Term& term) {
+    const WeightConstraint& c = term.constraint;
+    const bool known = c.kind == Kind::equal_crossing ? is_seam(mesh, c, seams) : is_of(mesh, c, outer);
+    return known && counts(certificate.constraints, c.kind);
+  });
+}
+
 }  // namespace
+
+bool certified::are_constraints_of(const Mesh& mesh, const Certificate& certificate) {
+  return are_of(mesh, {}, certificate);
+}
 
 std::string_view name(CertificateCheck check) {
   constexpr std::array<std::string_view, 5> kNames = {"proves", "proves_nothing", "not_of_this_mesh", "bad_multiplier",
@@ -261,12 +274,7 @@ namespace {
 
 CertificateCheck check_with(const Mesh& mesh, std::span<const SeamEdge> seams, const Certificate& certificate) {
   if (!has_good_multipliers(certificate)) return CertificateCheck::bad_multiplier;
-  const bool outer = assumes_reach(certificate.constraints);
-  for (const auto& term : certificate.terms) {
-    const WeightConstraint& c = term.constraint;
-    const bool known = c.kind == Kind::equal_crossing ? is_seam(mesh, c, seams) : is_of(mesh, c, outer);
-    if (!known || !counts(certificate.constraints, c.kind)) return CertificateCheck::not_of_this_mesh;
-  }
+  if (!are_of(mesh, seams, certificate)) return CertificateCheck::not_of_this_mesh;
   const bool in_plane = mesh.space().is_plane();
   const Scale scale =
       scale_of(certificate, {4, 2, in_plane ? 4 : 3, 0, 0, 4}, in_plane ? kLeastInPlane : kLeastOnSphere,

@@ -82,6 +82,9 @@ inline bool has_good_multipliers(const Certificate& certificate) {
          std::any_of(certificate.terms.begin(), certificate.terms.end(), positive);
 }
 
+/// Says whether all terms are constraints of a mesh of triangles, by its connectivity and regions alone.
+[[nodiscard]] bool are_constraints_of(const Mesh& mesh, const Certificate& certificate);
+
 /// Exponents that bring coordinates into [−1, 1] and the multiplier 1 into the middle of its range.
 struct Scale {
   std::array<int, 6> degrees = {};  ///< of N, by its kind

@@ -25,8 +25,9 @@ struct Bound {
 /// The margin to refute when a bound rules out all weights. `duals`: for dual lengths in the plane, unless the best
 /// margin is below zero.
 [[nodiscard]] inline double refuted_margin(const Demand& demand, const Bound& bound, double duals) {
-  if (!demand.has_duals() || (demand.has_outer_heights() && bound.best.margin < -kNoMargin)) return 0;
-  return demand.space().is_plane() ? duals : kLeastRefutedDual;
+  const bool may_be_negative = demand.has_outer_heights() || demand.is_curved();
+  if (!demand.has_duals() || (may_be_negative && bound.best.margin < -kNoMargin)) return 0;
+  return demand.space().is_plane() && !demand.is_curved() ? duals : kLeastRefutedDual;
 }
 
 /// A certificate that refutes the margin, with as few terms as possible; without terms when the checker accepts none.

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,8 +56,12 @@ namespace temper {
 /// Precondition: h is inside the mesh.
 [[nodiscard]] WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h);
 
-/// Constraints on a mesh of triangles, with their edges.
-class TriangleDemand final : public Demand {
+/// The error of a request that a mesh of triangles cannot have.
+[[nodiscard]] std::optional<InputError> expect_request(const Mesh& mesh, const WeightOptions& options,
+                                                       const ConvexSolver* convex);
+
+/// Constraints on a mesh of triangles, with their edges. Surfaces override what depends on positions.
+class TriangleDemand : public Demand {
  public:
   TriangleDemand(const Mesh& mesh, Constraints constraints, std::span<const HalfedgeId> edges = {});
   /// With the equations of interfaces.
@@ -81,7 +86,8 @@ class TriangleDemand final : public Demand {
   [[nodiscard]] std::vector<OffsetTerm> offsets(const WeightOptions& options) const override;
   [[nodiscard]] double reach(VertexId p, VertexId q, std::span<const VertexId> corners) const override;
 
- private:
+ protected:
+  [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   /// Says whether the height over the edge of h in its triangle counts.
   [[nodiscard]] bool has_height(HalfedgeId h) const {
     return has_heights() || (has_outer_heights() && bounds_region(mesh_, h));
@@ -91,6 +97,7 @@ class TriangleDemand final : public Demand {
     return has_duals() && !mesh_.is_boundary(h) && (prescribed_.empty() || prescribed_[h] != 0);
   }
 
+ private:
   const Mesh& mesh_;
   IdVector<HalfedgeId, std::uint8_t> prescribed_;  ///< none: every edge is
   const MetricMesh* pieces_ = nullptr;             ///< none: there are no interfaces

@@ -108,7 +108,9 @@ class Demand {
   [[nodiscard]] bool has_crossings() const { return has_crossings_; }
   [[nodiscard]] bool has_duals() const { return constraints_ == Constraints::regular || has_outer_heights(); }
   /// Says whether weights that attain a margin can be stretched to attain any, up to kMostMargin.
-  [[nodiscard]] bool is_stretchable() const { return has_duals() && !has_outer_heights(); }
+  [[nodiscard]] bool is_stretchable() const { return has_duals() && !has_outer_heights() && !is_curved(); }
+  /// Says whether the cells have no common plane or space, in which w = |x|² would make all duals zero.
+  [[nodiscard]] bool is_curved() const { return is_curved_; }
   /// Says whether a constraint may be 0.
   [[nodiscard]] bool allows_zero() const { return constraints_ == Constraints::coefficients; }
   [[nodiscard]] bool is_good(Sign sign) const {
@@ -174,12 +176,14 @@ class Demand {
   [[nodiscard]] double counted(const WeightConstraint& c, double value) const {
     return has_margin(c) || value < 0 ? value : kUnbounded;
   }
+  void set_curved() { is_curved_ = true; }
 
  private:
   Space space_;
   Constraints constraints_;
   bool has_crossings_;
   WeightConstraint::Kind inner_dual_;
+  bool is_curved_ = false;
 };
 
 /// The corners of these cells, sorted, each once.

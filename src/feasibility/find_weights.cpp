@@ -302,8 +302,6 @@ std::optional<InputError> expect_goal(const WeightOptions& options, const Convex
                     "margin: expected a number above 0 and below 0.5, found " + std::to_string(options.margin)};
 }
 
-namespace {
-
 std::optional<InputError> expect_request(const Mesh& mesh, const WeightOptions& options, const ConvexSolver* convex) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   if (has_quadrilaterals(mesh)) {
@@ -328,8 +326,6 @@ std::optional<InputError> expect_request(const Mesh& mesh, const WeightOptions& 
   }
   return expect_goal(options, convex);
 }
-
-}  // namespace
 
 Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options,
                                     ConvexSolver* convex) {

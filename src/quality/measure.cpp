@@ -154,6 +154,7 @@ struct Subject {
   TriangleId t;
   TriangleMeasure m;
   std::array<VertexId, 3> v;
+  std::array<double, 3> l2;  // squared lengths of the edges
   const InputNames* names = nullptr;
 
   [[nodiscard]] std::string number(VertexId u) const { return number_of(u, names); }
@@ -187,11 +188,9 @@ std::string why_not_inside(const Subject& s, int k) {
 std::string why_not_crossed(const Subject& s, int k) {
   int heavy = k, light = corner_after(k);
   if (s.weight(heavy) < s.weight(light)) std::swap(heavy, light);
-  const WeightedPoint a = s.mesh.point(s.v[heavy]), b = s.mesh.point(s.v[light], a);
-  const double l2 = squared_length(s.mesh.space().chord(a, b));
   return s.edge(k) + " is not crossed by its dual: the weight of vertex " + s.number(s.v[heavy]) +
          " exceeds that of vertex " + s.number(s.v[light]) + " by " + rounded(s.weight(heavy) - s.weight(light)) +
-         ", and the edge's squared length is " + rounded(l2);
+         ", and the edge's squared length is " + rounded(s.l2[k]);
 }
 
 std::string least_margin(const Subject& s) {
@@ -262,11 +261,23 @@ EdgePlace place_of(const Mesh& mesh, HalfedgeId h) {
 }
 
 WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) {
-  const Subject s{mesh, t, measure_triangle(mesh, t), mesh.corners(t), names};
+  const auto corners = mesh.corners(t);
+  std::array<double, 3> l2;
+  for (int k = 0; k < 3; ++k) {
+    const WeightedPoint a = mesh.point(corners[k]), b = mesh.point(corners[corner_after(k)], a);
+    l2[k] = squared_length(mesh.space().chord(a, b));
+  }
+  WorstTriangle worst = describe(mesh, t, measure_triangle(mesh, t), l2, names);
+  worst.at = middle_of(mesh, t);
+  return worst;
+}
+
+WorstTriangle describe(const Mesh& mesh, TriangleId t, const TriangleMeasure& m,
+                       const std::array<double, 3>& squared_lengths, const InputNames* names) {
+  const Subject s{mesh, t, m, mesh.corners(t), squared_lengths, names};
   WorstTriangle worst;
   worst.triangle = t;
   worst.vertices = s.v;
-  worst.at = middle_of(mesh, t);
   worst.h_over_l = s.m.h_over_l[least(s.m.h_over_l)];
   worst.angle_deg = *std::max_element(s.m.angle_deg.begin(), s.m.angle_deg.end());
   worst.why = explain(s);

@@ -88,6 +88,8 @@ class WorstList {
 /// Bins of 10°, and of 0.1 with a bin edge at h = 0.
 inline Histogram empty_angle_histogram() { return {0, 180, std::vector<std::size_t>(18)}; }
 inline Histogram empty_height_histogram() { return {-0.5, 1, std::vector<std::size_t>(15)}; }
+/// Bins of 0.05 with a bin edge at d = 0.
+inline Histogram empty_crossing_histogram() { return {-0.1, 0.5, std::vector<std::size_t>(12)}; }
 
 /// The number of different regions of the elements of a mesh.
 template <class MeshOfAnyKind, class Elements>
@@ -102,6 +104,10 @@ template <class MeshOfAnyKind, class Elements>
 
 /// The entry of the report on one triangle; `why` uses these numbers, or counts from 0.
 [[nodiscard]] WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names = nullptr);
+/// The same without its place, from the measures of the triangle and the squared lengths of its edges. The mesh gives
+/// connectivity and weights alone.
+[[nodiscard]] WorstTriangle describe(const Mesh& mesh, TriangleId t, const TriangleMeasure& m,
+                                     const std::array<double, 3>& squared_lengths, const InputNames* names = nullptr);
 
 /// The centroid of a triangle, for reports.
 [[nodiscard]] Vec2 middle_of(const Mesh& mesh, TriangleId t);

@@ -104,9 +104,6 @@ Transmissibilities compare_transmissibilities(const Mesh& mesh, Executor* execut
 // Everything here is a count, an extreme or a short list, so any division into blocks gives the same merged result.
 // Each edge is counted by the halfedge that stands for it, in the block of that halfedge's triangle.
 
-/// Bins of 0.05 with a bin edge at d = 0.
-Histogram empty_crossing_histogram() { return {-0.1, 0.5, std::vector<std::size_t>(12)}; }
-
 /// The edge of a dual, by its triangle in the user's order.
 struct LeastDual {
   TriangleId triangle;
@@ -213,7 +210,7 @@ Places measure(Quality& q, const Mesh& mesh, const IdVector<TriangleId, Triangle
   const Tally sums = tally(mesh, originals, options);
   q = sums.report;
   static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.brief, options.executor);
-  const Places places = {sums.worst, sums.least_dual.element};
+  Places places = {sums.worst, sums.least_dual.element};
   if (q.triangles == 0) return places;
   const Transmissibilities transmissibilities = compare_transmissibilities(mesh, options.executor);
   q.max_transmissibility_over_median = transmissibilities.max_over_median;
