@@ -1,4 +1,4 @@
-# Installs the libraries, and what find_package(temper COMPONENTS core tets io lp tbb mpi errors solvers) and pkg-config
+# Installs the libraries, and what find_package(temper COMPONENTS core tets surfaces io lp tbb mpi errors solvers) and pkg-config
 # need. The flags of temper's own code (temper_flags) stay here: they are linked for the build alone and are in no export.
 #
 # Components: `program` (apps/temper), `libraries` (shared ones, for programs to run), `development`, `python`.
@@ -38,6 +38,7 @@ endfunction()
 temper_install(temper core "Primal-dual triangle meshes that solvers can trust: the core")
 
 temper_install(temper_tets tets "temper's meshes of tetrahedra")
+temper_install(temper_surfaces surfaces "temper's meshes of curved surfaces")
 
 # Static libraries: whoever links the installed ones needs their libraries too, which temperConfig.cmake finds.
 if(TARGET temper_io)

@@ -45,6 +45,8 @@ LAYERS = {
     "report": _BELOW + ["size", "energy", "feasibility", "optimize", "quality", "explain", "dec"],
     # A library of its own, with the rules of the core: meshes of tetrahedra, on tables, reports and linear programs.
     "tets": _BELOW + ["regularity", "feasibility", "quality", "explain", "dec", "transfer", "draw", "optimize", "report"],
+    # The same for meshes of curved surfaces.
+    "surfaces": _BELOW + ["topology", "energy", "regularity", "feasibility", "quality", "dec"],
     # A library of its own: sees the public headers of the core and of tets, and no other folder of src/.
     "io": _BELOW + ["projection", "location", "size", "feasibility", "quality", "dec", "transfer", "mesher", "tets"],
     "lp": _BELOW + ["feasibility"],
@@ -54,8 +56,8 @@ LAYERS = {
     "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "quality", "lp", "errors", "io", "tets"],
     "build_info": ["base", "io"],
 }
-LIBRARIES = {"tets", "io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"}  # of their own
-CORE = set(LAYERS) - LIBRARIES | {"tets"}  # what keeps the rules of the core
+LIBRARIES = {"tets", "surfaces", "io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"}  # of their own
+CORE = set(LAYERS) - LIBRARIES | {"tets", "surfaces"}  # what keeps the rules of the core
 
 # Public headers whose name is not that of their layer.
 HEADER_LAYER = {name: "base" for name in ["cell_kinds", "ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "report", "suggest", "utf8", "version"]} | {"temper": "solvers", "criterion": "regularity", "trace": "optimize", "optimize_table": "optimize", "optimizer": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "convex": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "cells": "dec", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "solver_measures": "size", "dec_io": "io", "certificate_io": "io", "file_cures": "io", "html": "io", "path": "io", "faces": "mesh"}

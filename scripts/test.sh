@@ -174,7 +174,7 @@ consumer_find_package() {
   cmake --install build/dev --prefix "$scratch/prefix" >/dev/null &&
     readelf -d "$scratch/prefix/bin/temper" | grep -q 'RUNPATH.*\$ORIGIN/\.\./lib' && # where shared libraries would be
     [[ -s "$scratch/prefix/share/man/man1/temper-optimize.1" && -s "$scratch/prefix/share/bash-completion/completions/temper" ]] &&
-    PKG_CONFIG_PATH="$scratch/prefix/lib/pkgconfig" pkg-config --exists --print-errors temper temper-tets temper-io temper-lp temper-tbb temper-errors temper-solvers &&
+    PKG_CONFIG_PATH="$scratch/prefix/lib/pkgconfig" pkg-config --exists --print-errors temper temper-tets temper-surfaces temper-io temper-lp temper-tbb temper-errors temper-solvers &&
     cmake -G Ninja -S tests/consumer/find_package -B "$scratch/find_package" -DCMAKE_PREFIX_PATH="$scratch/prefix" &&
     cmake --build "$scratch/find_package"
 }

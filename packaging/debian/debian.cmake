@@ -26,7 +26,7 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-foreach(library temper temper_tets temper_io temper_lp temper_tbb temper_errors temper_solvers)
+foreach(library temper temper_tets temper_surfaces temper_io temper_lp temper_tbb temper_errors temper_solvers)
   if(TARGET ${library})  # where dpkg-shlibdeps finds the libraries of another package of these
     get_target_property(folder ${library} BINARY_DIR)
     list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${folder})

@@ -1,0 +1,184 @@
+// Curved surfaces: meshes of triangles with points in space, closed or with boundary, of any genus.
+//
+// Each triangle is plane. Its orthocenter, heights h and crossings d follow from three lengths and three weights, by
+// the formulas of the plane (temper/detail/geometry.hpp). The dual of an edge has one part in each triangle: its length
+// is h_k + h_l, as if both triangles were unfolded into one plane. So criteria, weights and operators keep their names.
+//
+//          k             The area A has a square root in space: h ℓ = N/(2 A) with N rational in coordinates and
+//        / | \           weights. A sign of h is a sign of N. A sign of h_k + h_l compares the squares of N_k/A_k and
+//      i---+---j         N_l/A_l. Exact arithmetic decides both.
+//        \ | /
+//          l             The library is temper::surfaces, beside the core.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "temper/dec.hpp"
+#include "temper/detail/criterion.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/ids.hpp"
+#include "temper/detail/vec.hpp"
+#include "temper/feasibility.hpp"
+#include "temper/mesh.hpp"
+#include "temper/quality.hpp"
+
+namespace temper::surfaces {
+
+// --- one triangle in space ----------------------------------------------------------------------------------------
+
+/// A point of space and its weight. The power distance to q is |(x, y, z) − q|² − w.
+struct WeightedPoint {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+  double w = 0;
+  [[nodiscard]] constexpr Vec3 position() const { return {x, y, z}; }
+  friend constexpr bool operator==(WeightedPoint, WeightedPoint) = default;
+};
+
+/// Says whether three points are on one line. Exact for all finite numbers, as are all signs here.
+[[nodiscard]] bool is_flat(Vec3 p, Vec3 q, Vec3 r);
+/// Sign of the height of the orthocenter of pqr over pq, positive on the side of r. Precondition: pqr is not flat.
+[[nodiscard]] Sign signed_height_sign(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+/// Sign of d_pq, measured from p towards q.
+[[nodiscard]] Sign dual_crossing_sign(const WeightedPoint& p, const WeightedPoint& q);
+/// Sign of the dual length of pq: the sum of the heights over pq in pqr and in qps. Precondition: neither is flat.
+[[nodiscard]] Sign dual_length_sign(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r,
+                                    const WeightedPoint& s);
+/// Says whether all heights are > 0, and all edges are crossed by their duals: 0 < d < ℓ.
+[[nodiscard]] bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+
+// In doubles:
+
+/// The point of equal power to p, q and r in their plane.
+[[nodiscard]] Vec3 orthocenter(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+/// d_pq [length].
+[[nodiscard]] double dual_crossing(const WeightedPoint& p, const WeightedPoint& q);
+/// h over pq in pqr [length].
+[[nodiscard]] double signed_height(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+/// The dual length of pq over its length, with the exact sign. It is accurate even if both heights cancel.
+[[nodiscard]] double dual_over_length(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r,
+                                      const WeightedPoint& s);
+
+// --- the mesh -----------------------------------------------------------------------------------------------------
+
+/// Arrays that make a mesh, as MeshInput. SurfaceMesh::build reads the spans only during the call.
+struct SurfaceInput {
+  std::span<const Vec3> points = {};     ///< Points of space, n of them
+  std::span<const double> weights = {};  ///< Weights of the points [length²]; empty: all zero
+  /// Corners of the m triangles, 0-based, in either orientation.
+  std::span<const std::array<std::int32_t, 3>> triangles = {};
+  std::span<const std::array<std::int32_t, 2>> constrained_edges = {};  ///< Edges that must never flip, 0-based
+  std::span<const std::int32_t> regions = {};         ///< Region numbers of the triangles; empty: all zero
+  std::span<const std::int32_t> fixed_vertices = {};  ///< Vertices that must never move, 0-based
+  const InputNames* names = nullptr;                  ///< Numbering of the user, for errors
+};
+
+/// A mesh of a surface. Halfedges, flags and regions are those of a Mesh (temper/mesh.hpp), without its geometry.
+class SurfaceMesh {
+ public:
+  SurfaceMesh() = default;
+
+  /// Builds a mesh and checks it. Triangles of one component get one orientation; the fewest are reversed, and counted.
+  /// Edges between different regions become constrained. Weights need not be regular. O(n log n).
+  ///
+  /// The checks are:
+  ///   - finite coordinates of exact range, indices in range, no unused point, no triangle of zero area
+  ///   - at most two triangles per edge, one fan per vertex, an orientation
+  ///
+  /// The surface may touch or cross itself: nothing looks for this. Points at one place are counted.
+  [[nodiscard]] static Expected<struct BuiltSurface> build(const SurfaceInput& input);
+
+  /// Halfedges, corners, stars, flags, regions and weights. Its positions have no meaning.
+  [[nodiscard]] const Mesh& connectivity() const { return mesh_; }
+
+  [[nodiscard]] std::size_t n_vertices() const { return mesh_.n_vertices(); }
+  [[nodiscard]] std::size_t n_triangles() const { return mesh_.n_triangles(); }
+  [[nodiscard]] IdRange<VertexId> vertices() const { return mesh_.vertices(); }
+  [[nodiscard]] IdRange<TriangleId> triangles() const { return mesh_.triangles(); }
+  [[nodiscard]] IdRange<HalfedgeId> halfedges() const { return mesh_.halfedges(); }
+
+  [[nodiscard]] Vec3 position(VertexId v) const { return {mesh_.point(v).x, mesh_.point(v).y, z_[v]}; }
+  [[nodiscard]] double weight(VertexId v) const { return mesh_.point(v).w; }
+  [[nodiscard]] WeightedPoint point(VertexId v) const {
+    const auto [x, y, w] = mesh_.point(v);
+    return {x, y, z_[v], w};
+  }
+  [[nodiscard]] std::array<WeightedPoint, 3> points(TriangleId t) const {
+    const auto [a, b, c] = mesh_.corners(t);
+    return {point(a), point(b), point(c)};
+  }
+  /// The caller keeps triangles from becoming flat.
+  void set_position(VertexId v, Vec3 p) { mesh_.set_point(v, {p.x, p.y, weight(v)}), z_[v] = p.z; }
+  void set_weight(VertexId v, double w) { mesh_.set_point(v, {mesh_.point(v).x, mesh_.point(v).y, w}); }
+
+  /// Checks that no triangle is flat (exact), and that twins, stars and flags fit. Returns the first fault, or nothing.
+  [[nodiscard]] std::optional<std::string> validate() const;
+
+  friend bool operator==(const SurfaceMesh&, const SurfaceMesh&) = default;
+
+ private:
+  friend class SurfaceBuilder;
+  friend class SurfaceEditor;
+
+  Mesh mesh_;
+  IdVector<VertexId, double> z_;
+};
+
+/// The result of SurfaceMesh::build, with its repairs.
+struct BuiltSurface {
+  SurfaceMesh mesh;
+  std::size_t reversed_triangles = 0;  ///< Number of triangles whose orientation did not fit
+  std::size_t components = 0;          ///< Number of connected components
+  std::size_t coincident_points = 0;   ///< Number of points at the place of another point
+};
+
+// --- quality --------------------------------------------------------------------------------------------------------
+
+/// Measures a mesh by the rows of quality_measures(). No triangle of a surface is inverted. Energies and SolverMeasures
+/// are not measured: they keep the values that they have without a mesh. Places of the report are x and y. O(n).
+[[nodiscard]] Quality quality(const SurfaceMesh& mesh, std::size_t worst = 5);
+/// Quality of one triangle.
+[[nodiscard]] TriangleQuality triangle_quality(const SurfaceMesh& mesh, TriangleId t);
+/// As those of the plane (temper/detail/criterion.hpp). O(n).
+[[nodiscard]] std::vector<ViolatedEdge> violated_edges(const SurfaceMesh& mesh, Criterion criterion);
+[[nodiscard]] std::vector<TriangleId> cells_at_violations(const SurfaceMesh& mesh, Criterion criterion);
+[[nodiscard]] bool meets(const SurfaceMesh& mesh, Criterion criterion);
+
+// --- weights --------------------------------------------------------------------------------------------------------
+
+/// The margin of the mesh's own weights, in doubles, as temper::weight_margin.
+[[nodiscard]] double weight_margin(const SurfaceMesh& mesh, Constraints constraints = Constraints::well_centered,
+                                   std::span<const HalfedgeId> edges = {});
+/// Σ over edges |Δw_i − Δw_j| / (2ℓ).
+[[nodiscard]] double weight_change(const SurfaceMesh& mesh, const IdVector<VertexId, double>& from,
+                                   const IdVector<VertexId, double>& to);
+
+/// Finds weights for a mesh with fixed positions and connectivity, as temper::find_weights. The same exact signs and
+/// certificates decide. A curved surface has no weights that make all duals zero, so dual lengths cannot be stretched:
+/// the best margin of `regular` may have any sign. Error also: WeightGoal::accuracy.
+[[nodiscard]] Expected<WeightReport> find_weights(const SurfaceMesh& mesh, LpSolver& solver,
+                                                  const WeightOptions& options = {}, ConvexSolver* convex = nullptr);
+
+/// Verifies a certificate in exact arithmetic, from the positions alone. Heights and crossings have the polynomials of
+/// the plane (temper/feasibility.hpp). With N_r and N_s of the heights over pq in pqr and qps, a dual length has
+///
+///   dual    N = N_r T + N_s S = 2 (h_r + h_s) ℓ S T,   M = 2 ℓ² S T
+///
+/// S and T have square roots. The checker adds the largest effect of their rounding.
+[[nodiscard]] CertificateCheck check_certificate(const SurfaceMesh& mesh, const Certificate& certificate);
+
+// --- operators ------------------------------------------------------------------------------------------------------
+
+/// Computes the operators of a surface (temper/dec.hpp). `sphere_orthocenters` and `sphere_midpoints` have the centers
+/// in space: each orthocenter in the plane of its triangle, and the weighted midpoints of edges. Areas and dual areas
+/// are those of the plane triangles. Precondition: fewer than 2³¹ edges. O(n).
+[[nodiscard]] DecComplex dec_operators(const SurfaceMesh& mesh);
+
+}  // namespace temper::surfaces

@@ -1,0 +1,44 @@
+// Constraints on the weights of a surface: the plane's linear forms, with edges as vectors in space.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "feasibility/constraints.hpp"
+#include "temper/surfaces.hpp"
+
+namespace temper::surfaces {
+
+/// Connectivity, constraints and their order are the plane's (feasibility/constraints.hpp).
+class SurfaceDemand final : public TriangleDemand {
+ public:
+  SurfaceDemand(const SurfaceMesh& surface, Constraints constraints, std::span<const HalfedgeId> edges = {})
+      : TriangleDemand(surface.connectivity(), constraints, edges), surface_(surface) {
+    set_curved();
+  }
+
+  [[nodiscard]] std::vector<WeightEdge> edges_of(std::span<const CellId> cells) const override;
+  [[nodiscard]] LinearForm linear_form(const WeightConstraint& constraint) const override;
+  /// N and M of heights and crossings are as in the plane. Of a dual, with S and T twice the areas of pqr and qps:
+  /// N = N_r T + N_s S = 2 (h_r + h_s) ℓ S T, M = 2 ℓ² S T.
+  [[nodiscard]] double scale_of_polynomial(const WeightConstraint& constraint) const override;
+  [[nodiscard]] bool is_kept(CellId cell, const VertexWeights& weights) const override;
+  [[nodiscard]] double angle_deg(const WeightConstraint& constraint) const override;
+  [[nodiscard]] CertificateCheck check(const Certificate& certificate) const override;
+  /// Precondition: no goal of the caller needs it.
+  [[nodiscard]] std::vector<OffsetTerm> offsets(const WeightOptions& options) const override;
+  [[nodiscard]] double reach(VertexId p, VertexId q, std::span<const VertexId> corners) const override;
+
+ private:
+  [[nodiscard]] Vec3 from_to(VertexId a, VertexId b) const { return surface_.position(b) - surface_.position(a); }
+  [[nodiscard]] double squared_distance(VertexId a, VertexId b) const { return squared_length(from_to(a, b)); }
+  [[nodiscard]] double doubled_area(VertexId p, VertexId q, VertexId r) const {
+    return length(cross(from_to(p, q), from_to(p, r)));
+  }
+  [[nodiscard]] LinearForm form_of_height(VertexId p, VertexId q, VertexId r) const;
+
+  const SurfaceMesh& surface_;
+};
+
+}  // namespace temper::surfaces

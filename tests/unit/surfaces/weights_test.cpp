@@ -1,0 +1,218 @@
+// Weights alone on surfaces: the plane's weights in the plane, exact verdicts, and certificates.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "support/surface_meshes.hpp"
+#include "temper/detail/lp.hpp"
+#include "temper/generate.hpp"
+
+namespace temper::surfaces {
+namespace {
+
+WeightReport weights_of(const SurfaceMesh& mesh, const WeightOptions& options = {}) {
+  auto found = find_weights(mesh, *clp_solver(), options, interior_point_solver().get());
+  EXPECT_TRUE(found) << found.error().what();
+  return *std::move(found);
+}
+
+SurfaceMesh with(SurfaceMesh mesh, const IdVector<VertexId, double>& weights) {
+  for (const VertexId v : mesh.vertices()) mesh.set_weight(v, weights[v]);
+  return mesh;
+}
+
+/// An icosphere with random radii, thinner along z.
+SurfaceMesh rough_sphere(double roughness, std::uint64_t seed, double thickness = 1) {
+  Rng rng(seed);
+  test::SurfaceArrays arrays = test::icosphere(2);
+  for (Vec3& p : arrays.points) p = rng.uniform(1 - roughness, 1 + roughness) * Vec3{p.x, p.y, thickness * p.z};
+  return test::mesh_of(arrays);
+}
+
+/// A strip with random diagonals, bent to a saddle.
+SurfaceMesh saddle(std::uint64_t seed, double bend) {
+  return test::mesh_of(test::mapped(test::plane_strip(8, seed), [&](Vec2 p) {
+    return Vec3{p.x, p.y, bend * (p.x - 4) * (p.y - 4)};
+  }));
+}
+
+/// A pinwheel: a triangle in a larger one, turned and lifted. The diagonals between them all turn one way.
+SurfaceMesh pinwheel(double turn, double height) {
+  test::SurfaceArrays arrays;
+  for (int k = 0; k < 6; ++k) {
+    const double angle = 2 * std::numbers::pi / 3 * k + (k < 3 ? 0 : turn), away = k < 3 ? 4 : 1;
+    arrays.points.push_back({away * std::cos(angle), away * std::sin(angle), k < 3 ? 0 : height});
+  }
+  arrays.triangles = {{3, 4, 5}};
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    arrays.triangles.insert(arrays.triangles.end(), {{k, next, k + 3}, {next, next + 3, k + 3}});
+  }
+  return test::mesh_of(arrays);
+}
+
+TEST(SurfaceWeights, InThePlaneTheyAreThePlanesBitForBit) {
+  for (const WeightGoal goal : {WeightGoal::change, WeightGoal::elastic, WeightGoal::margin}) {
+    for (const std::uint64_t seed : {1, 2}) {
+      const Mesh plane = *random_mesh({.vertices = 120, .seed = seed});
+      const SurfaceMesh surface = test::mesh_of(test::lifted(plane));
+      WeightOptions options;
+      options.goal = goal;
+      const WeightReport here = weights_of(surface, options),
+                         there = *temper::find_weights(plane, *clp_solver(), options);
+      EXPECT_EQ(here.weights, there.weights);
+      EXPECT_EQ(here.verdict, there.verdict);
+      EXPECT_EQ(here.margin, there.margin);
+      EXPECT_EQ(here.certificate, there.certificate);
+      EXPECT_EQ(here.violations.size(), there.violations.size());
+      EXPECT_EQ(weight_change(surface, here.weights, IdVector<VertexId, double>(plane.n_vertices(), 0.0)),
+                temper::weight_change(plane, there.weights, IdVector<VertexId, double>(plane.n_vertices(), 0.0)));
+    }
+  }
+}
+
+TEST(SurfaceWeights, OfFoldedPaperHaveTheMarginOfItsUnfolding) {
+  const Mesh strip = test::plane_strip(6, 5);
+  const SurfaceMesh folded = test::mesh_of(test::folded(strip, 0.9));
+  for (const Constraints constraints :
+       {Constraints::well_centered, Constraints::heights_only, Constraints::coefficients, Constraints::distances}) {
+    EXPECT_NEAR(weight_margin(folded, constraints), temper::weight_margin(strip, constraints), 1e-12);
+    WeightOptions options;
+    options.goal = WeightGoal::margin;
+    options.constraints = constraints;
+    const WeightReport here = weights_of(folded, options), there = *temper::find_weights(strip, *clp_solver(), options);
+    EXPECT_EQ(here.verdict, there.verdict) << name(constraints);
+    EXPECT_NEAR(here.margin, there.margin, 1e-8) << name(constraints);
+  }
+}
+
+TEST(SurfaceWeights, MakeARoughSphereWellCentered) {
+  const SurfaceMesh sphere = rough_sphere(0.35, 3);
+  EXPECT_LT(quality(sphere).well_centered_fraction, 1);
+  WeightOptions options;
+  options.goal = WeightGoal::margin;
+  const WeightReport report = weights_of(sphere, options);
+  ASSERT_EQ(report.verdict, Feasibility::feasible);
+  EXPECT_GE(report.attained, report.asked - 1e-9);
+  const SurfaceMesh after = with(sphere, report.weights);
+  EXPECT_EQ(quality(after).well_centered_fraction, 1);
+  EXPECT_NEAR(weight_margin(after), report.attained, 1e-12);
+
+  options.goal = WeightGoal::center;
+  options.constraints = Constraints::well_centered;
+  const WeightReport center = weights_of(sphere, options);
+  ASSERT_TRUE(center.solved);
+  EXPECT_EQ(quality(with(sphere, center.weights)).well_centered_fraction, 1);
+  EXPECT_LT(center.optimality->relative_gap(), 1e-6);
+}
+
+/// The sum of a certificate in doubles, from heights alone: Σ multiplier N at some weights.
+double sum_at(const SurfaceMesh& mesh, const Certificate& certificate, const IdVector<VertexId, double>& weights) {
+  const auto at = [&](VertexId v) {
+    WeightedPoint p = mesh.point(v);
+    p.w = weights[v];
+    return p;
+  };
+  double sum = 0;
+  for (const auto& [c, multiplier] : certificate.terms) {
+    const WeightedPoint p = at(c.p), q = at(c.q);
+    const double l = length(q.position() - p.position());
+    const auto area = [&](const WeightedPoint& v) {
+      return length(cross(q.position() - p.position(), v.position() - p.position()));
+    };
+    if (c.kind == WeightConstraint::Kind::crossing) {
+      sum += multiplier * 2 * l * (dual_crossing(p, q) - certificate.margin * l);
+    } else if (c.kind == WeightConstraint::Kind::height) {
+      const double margin = certificate.constraints == Constraints::coefficients ? 0 : certificate.margin;
+      sum += multiplier * 2 * l * area(at(c.r)) * (signed_height(p, q, at(c.r)) - margin * l);
+    } else {
+      const WeightedPoint r = at(c.r), s = at(c.s);
+      const double dual = signed_height(p, q, r) + signed_height(q, p, s);
+      sum += multiplier * 2 * l * area(r) * area(s) * (dual - certificate.margin * l);
+    }
+  }
+  return sum;
+}
+
+TEST(SurfaceWeights, EveryVerdictHasAProof) {
+  std::map<Feasibility, int> verdicts;
+  for (const Constraints constraints :
+       {Constraints::well_centered, Constraints::heights_only, Constraints::regular, Constraints::distances}) {
+    for (const SurfaceMesh& mesh : {rough_sphere(0.35, 3), rough_sphere(0.1, 3, 0.3), saddle(1, 0.3), pinwheel(0, 0.5),
+                                    pinwheel(0.2, 0.5), pinwheel(-0.2, 0.5), pinwheel(-0.2, 0)}) {
+      WeightOptions options;
+      options.goal = WeightGoal::margin;
+      options.constraints = constraints;
+      const WeightReport report = weights_of(mesh, options);
+      ++verdicts[report.verdict];
+      if (report.verdict == Feasibility::feasible) {
+        EXPECT_GT(weight_margin(with(mesh, report.weights), constraints), 0);
+        continue;
+      }
+      if (report.verdict == Feasibility::undecided) {
+        EXPECT_NEAR(report.margin, 0, 1e-9);
+        continue;
+      }
+      ASSERT_EQ(report.verdict, Feasibility::infeasible) << name(constraints);
+      const Certificate& certificate = report.certificate;
+      ASSERT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves);
+      // The weights cancel, and the rest is negative.
+      IdVector<VertexId, double> weights(mesh.n_vertices(), 0.0);
+      const double rest = sum_at(mesh, certificate, weights);
+      EXPECT_LT(rest, 0);
+      Rng rng(1);
+      for (double& w : weights) w = rng.uniform(-1, 1);
+      EXPECT_NEAR(sum_at(mesh, certificate, weights), rest, 1e-6 * std::abs(rest));
+
+      Certificate wrong = certificate;
+      wrong.terms.resize(1);
+      EXPECT_EQ(check_certificate(mesh, wrong), CertificateCheck::proves_nothing);
+      wrong = certificate;
+      wrong.terms.front().constraint.q = wrong.terms.front().constraint.p;
+      EXPECT_EQ(check_certificate(mesh, wrong), CertificateCheck::not_of_this_mesh);
+      wrong = certificate;
+      wrong.terms.front().multiplier = -1;
+      EXPECT_EQ(check_certificate(mesh, wrong), CertificateCheck::bad_multiplier);
+      EXPECT_NE(check_certificate(rough_sphere(0, 1), certificate), CertificateCheck::proves);
+    }
+  }
+  EXPECT_GE(verdicts[Feasibility::feasible], 8);
+  EXPECT_GE(verdicts[Feasibility::infeasible], 14);
+}
+
+TEST(SurfaceWeights, DualLengthsOfAPinwheelHaveABestMarginOfAnySign) {
+  // Seen from a point below, edges of a convex surface are regular with the weights |x|². Diagonals that are reflex
+  // edges are not.
+  const auto best = [](double turn) {
+    WeightOptions options;
+    options.goal = WeightGoal::margin;
+    options.constraints = Constraints::regular;
+    return weights_of(pinwheel(turn, 0.5), options).margin;
+  };
+  EXPECT_GT(best(0.2), 0.1);
+  EXPECT_NEAR(best(0), 0, 1e-9);
+  EXPECT_LT(best(-0.2), -1e-3);
+}
+
+TEST(SurfaceWeights, ATorusOfTrapezoidsHasTheBestMarginZero) {
+  // The best weights may depend on the height alone, by symmetry. Then the corners of each trapezoid stay cocircular.
+  const SurfaceMesh torus = test::mesh_of(test::torus(12, 8));
+  WeightOptions options;
+  options.goal = WeightGoal::margin;
+  const WeightReport report = weights_of(torus, options);
+  EXPECT_NE(report.verdict, Feasibility::feasible);
+  EXPECT_NEAR(report.margin, 0, 1e-9);
+}
+
+TEST(SurfaceWeights, AnErrorNamesTheGoalThatSurfacesDoNotHave) {
+  WeightOptions options;
+  options.goal = WeightGoal::accuracy;
+  const auto found =
+      find_weights(test::mesh_of(test::icosphere(0)), *clp_solver(), options, interior_point_solver().get());
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::invalid_option);
+}
+
+}  // namespace
+}  // namespace temper::surfaces
