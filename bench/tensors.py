@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Tensors of regions: two-point fluxes on meshes in the metric of each region.
 
-    bench/tensors.py [--size 0.06] [--ratios 2,10,100] [--smooth] [--weights] [--tetrahedra]
+    bench/tensors.py [--size 0.06] [--ratios 2,10,100] [--cases lens,fault] [--smooth] [--turning] [--weights]
+                     [--tetrahedra]
 
 A square has regions with different diffusion tensors K. Their axes are turned, and the ratio of the two values of each K
 is given. Edges of interfaces are edges of the mesh. `optimize` gives vertices of interfaces a weight for each region.
@@ -23,9 +24,10 @@ triangles. Values at the boundary are given in the weighted midpoints of its edg
     seconds   of `optimize`
 
 With --smooth the pressure is smooth in each of three layers, for sizes h, h/2, h/4 and h/8, and the last column is the
-order. With --weights positions stay: the table has the bad triangles with weights 0, with one weight for each vertex,
+order. With --turning the axes of the tensor turn through the square, by 15 to 60 degrees: each triangle has one of its own, as
+MODFLOW's angle1. The pressure is smooth. With --weights positions stay: the table has the bad triangles with weights 0, with one weight for each vertex,
 with a weight for each region but 0 at interfaces, and with a weight for each region: by SciPy, and by `find_weights`.
---tetrahedra has a table of a cube with regions (bench/tensors_tets.py), and needs gmsh.
+--tetrahedra has a table of a cube with regions, also with --smooth (bench/tensors_tets.py), and needs gmsh.
 """
 
 from __future__ import annotations
@@ -156,7 +158,8 @@ def fluxes_of_barycenters(mesh, tensor):
     d = temper.dec_operators(mesh)
     points, triangles = mesh.points, mesh.triangles
     centers = points[triangles].mean(axis=1)
-    k = np.array([[[xx, xy], [xy, yy]] for xx, xy, yy in (tensor[int(r)] for r in mesh.regions)])
+    of_triangles = tensor if isinstance(tensor, np.ndarray) else [tensor[int(r)] for r in mesh.regions]
+    k = np.array([[[xx, xy], [xy, yy]] for xx, xy, yy in of_triangles])
     halves = np.empty(3 * len(triangles))
     for i in range(3):
         a, b = points[triangles[:, i]], points[triangles[:, (i + 1) % 3]]
@@ -245,10 +248,10 @@ def gap(mesh, tensor):
     return apart
 
 
-def exact_table(size, ratios):
+def exact_table(size, ratios, names):
     print(f"{'case':<10} {'ratio':>5} {'triangles':>9} {'bad':>11} {'gap':>8} {'error':>8} {'barycenters':>11} {'seconds':>7}")
     for ratio in ratios:
-        for case in cases(ratio):
+        for case in (case for case in cases(ratio) if not names or case.name in names):
             mesh, tensor = meshed(case, size), case.tensor()
             before, on_barycenters = bad(mesh, tensor), error_of(case, mesh, fluxes_of_barycenters(mesh, tensor))
             start = time.perf_counter()
@@ -343,6 +346,55 @@ def smooth_table(size, ratios):
                 flush=True,
             )
             before = error
+
+
+# --- axes that turn ---------------------------------------------------------------------------------------------------
+
+
+class Turning:
+    """A square whose tensor has the values `ratio` and 1, and axes that turn by some degrees from corner to corner."""
+
+    def __init__(self, ratio, degrees):
+        import sympy
+
+        x, y = sympy.symbols("x y")
+        angle = sympy.rad(25 + degrees * (x + sympy.sin(2.2 * y)) / 2)
+        c, s = sympy.cos(angle), sympy.sin(angle)
+        k = [ratio * c * c + s * s, (ratio - 1) * c * s, ratio * s * s + c * c]
+        u = sympy.sin(2 * x + 0.3) * sympy.cos(1.5 * y) + x * y
+        ux, uy = sympy.diff(u, x), sympy.diff(u, y)
+        f = -sympy.diff(k[0] * ux + k[1] * uy, x) - sympy.diff(k[1] * ux + k[2] * uy, y)
+        self.k, self.u, self.f = (sympy.lambdify((x, y), function) for function in (k, u, f))
+
+    def tensors(self, mesh):
+        return np.stack(self.k(*mesh.points[mesh.triangles].mean(axis=1).T), axis=1)
+
+    def error(self, mesh, f):
+        corners = mesh.points[mesh.triangles]
+        places = [(corners.sum(axis=1) + 3 * corners[:, i]) / 6 for i in range(3)]
+        sources = temper.dec_operators(mesh).areas * sum(self.f(*p.T) for p in places) / 3
+        return l2(mesh, solve(f, self.u(*f.feet.T), sources) - self.u(*f.centers.T), self.u(*f.centers.T))
+
+
+def turning_table(size, ratios):
+    print(f"{'degrees':>7} {'ratio':>5} {'triangles':>9} {'bad':>11} {'error':>8} {'barycenters':>11} {'seconds':>7}")
+    for ratio in ratios:
+        for degrees in (15, 30, 60):
+            problem = Turning(ratio, degrees)
+            mesh = temper.mesh_outline(temper.Outline(np.array(SQUARE, float), SIDES), size, optimize=False).mesh
+            tensor = problem.tensors(mesh)
+            before, on_barycenters = bad(mesh, tensor), problem.error(mesh, fluxes_of_barycenters(mesh, tensor))
+            mesh.cell_data["K"] = tensor
+            start = time.perf_counter()
+            temper.optimize(mesh, tensor=tensor, boundary="split", progress=False)
+            seconds = time.perf_counter() - start
+            tensor = mesh.cell_data["K"]
+            error = problem.error(mesh, fluxes_of_duals(mesh, tensor))
+            print(
+                f"{degrees:7d} {ratio:5g} {mesh.n_triangles:9d} {before:5d} {bad(mesh, tensor):5d} {error:8.1e} "
+                f"{on_barycenters:11.1e} {seconds:7.2f}",
+                flush=True,
+            )
 
 
 # --- weights alone ----------------------------------------------------------------------------------------------------
@@ -450,17 +502,24 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--size", type=float, help="of edges; default 0.06, and 0.15 for tetrahedra")
     parser.add_argument("--ratios", default="2,10,100")
+    parser.add_argument("--cases", default="", help="default: all")
     parser.add_argument("--smooth", action="store_true")
+    parser.add_argument("--turning", action="store_true")
     parser.add_argument("--weights", action="store_true")
     parser.add_argument("--tetrahedra", action="store_true")
     arguments = parser.parse_args()
     ratios = [float(r) for r in arguments.ratios.split(",")]
+    names = [name for name in arguments.cases.split(",") if name]
     if arguments.tetrahedra:
         import tensors_tets
 
-        return tensors_tets.table(arguments.size or 0.15, ratios)
-    table = smooth_table if arguments.smooth else weights_table if arguments.weights else exact_table
-    return table(arguments.size or 0.06, ratios)
+        if arguments.smooth:
+            return tensors_tets.smooth_table(arguments.size or 0.4, ratios)
+        return tensors_tets.table(arguments.size or 0.15, ratios, names)
+    size = arguments.size or 0.06
+    if not (arguments.smooth or arguments.turning or arguments.weights):
+        return exact_table(size, ratios, names)
+    return (smooth_table if arguments.smooth else turning_table if arguments.turning else weights_table)(size, ratios)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Tensors of regions of tetrahedra: the cases and the table of `bench/tensors.py --tetrahedra`.
+"""Tensors of regions of tetrahedra: the cases and the tables of `bench/tensors.py --tetrahedra`.
 
 A cube has regions with different diffusion tensors K. gmsh makes the meshes, whose faces follow the interfaces. The
 pressure is linear in each region. It is continuous, and so is its flux through interfaces. Unknowns are in the
@@ -18,6 +18,8 @@ Columns:
     error     L2 norm of the error at orthocenters over the norm of the pressure
     barycenters  the same on the input, with unknowns in barycenters, and fluxes through barycenters of faces
     seconds   of `optimize`
+
+With --smooth the pressure is smooth in each of three level layers, isotropic in their plane, for sizes that fall by √½.
 """
 
 from __future__ import annotations
@@ -159,8 +161,8 @@ def face_numbers(mesh, faces):
     return np.searchsorted(key(faces.astype(np.int64)), key(halffaces))
 
 
-def solve(mesh, dual, centers, halves, given):
-    """Values in the tetrahedra, from halves of transmissibilities and values on the boundary."""
+def solve(mesh, dual, centers, halves, given, sources=0.0):
+    """Values in the tetrahedra, from halves of transmissibilities, values on the boundary, and sources."""
     number = face_numbers(mesh, dual.faces.vertices)
     resistance = np.bincount(number, 1 / halves, minlength=len(dual.faces))
     t = 1 / resistance
@@ -171,7 +173,7 @@ def solve(mesh, dual, centers, halves, given):
     n = len(centers)
     rows, columns = np.r_[i, j, i, j, b], np.r_[i, j, j, i, b]
     matrix = scipy.sparse.csc_matrix((np.r_[ti, ti, -ti, -ti, tb], (rows, columns)), shape=(n, n))
-    right = np.zeros(n)
+    right = np.zeros(n) + sources
     np.add.at(right, b, tb * given[~inside])
     return scipy.sparse.linalg.spsolve(matrix, right)
 
@@ -181,7 +183,8 @@ def error_of(case, mesh, dual, centers, halves, feet):
     region = mesh.regions - 1
     given = case.pressure(feet, region[np.where(behind >= 0, behind, ahead)])
     exact = case.pressure(centers, region)
-    error, v = solve(mesh, dual, centers, halves, given) - exact, dual.volumes
+    sources = case.sources(mesh, dual.volumes) if isinstance(case, Smooth) else 0.0
+    error, v = solve(mesh, dual, centers, halves, given, sources) - exact, dual.volumes
     middle = (v * exact).sum() / v.sum()
     return np.sqrt((v * error**2).sum() / (v * (exact - middle) ** 2).sum())
 
@@ -243,12 +246,86 @@ def feet_and_center(points, metric, weights):
     return np.array(feet), points[0] + np.linalg.solve(uv @ metric @ uv.T, right) @ uv
 
 
-def table(size, ratios):
+class Smooth:
+    """Three level layers. Around its lower or upper interface at z₀, with pressure f and upward flux s there, a layer has
+    u = f + (z − z₀) (s − kxz ∂f/∂x − kyz ∂f/∂y)/kzz + (z − z₀)² g. So pressure and flux are continuous."""
+
+    HEIGHTS = (1 / 3, 2 / 3)
+
+    def __init__(self, ratio):
+        import sympy
+
+        x, y, z = self.axes = sympy.symbols("x y z")
+        flat = planes("smooth", (0, 0, 1), [h - 0.5 for h in self.HEIGHTS], [isotropic_in_plane((0, 0, 1), ratio, i) for i in range(3)])
+        self.geometry, self.region_of, self.tensors = flat.geometry, flat.region_of, flat.tensors
+        low, high = (sympy.Rational(i, 3) for i in (1, 2))
+        grad = lambda u: [sympy.diff(u, axis) for axis in self.axes]
+        flux = lambda k, u: [sum(float(k[i, j]) * grad(u)[j] for j in range(3)) for i in range(3)]
+
+        def layer(k, f, s, at, g):
+            across = s - float(k[0, 2]) * sympy.diff(f, x) - float(k[1, 2]) * sympy.diff(f, y)
+            return f + (z - at) * across / float(k[2, 2]) + (z - at) ** 2 * g
+
+        f, s = sympy.sin(2 * x + 0.3) * sympy.cos(y), sympy.cos(1.5 * x + y)
+        layers = [layer(self.tensors[i], f, s, low, sympy.cos(x + i) + y) for i in (0, 1)]
+        middle = layers[1]
+        up = flux(self.tensors[1], middle)[2].subs(z, high)
+        layers.append(layer(self.tensors[2], middle.subs(z, high), up, high, sympy.sin(x + y)))
+        sources = [-sum(sympy.diff(q, axis) for q, axis in zip(flux(k, u), self.axes)) for k, u in zip(self.tensors, layers)]
+        self.u = [sympy.lambdify(self.axes, u) for u in layers]
+        self.f = [sympy.lambdify(self.axes, source) for source in sources]
+
+    @staticmethod
+    def at(functions, places, region):
+        values = np.empty(len(places))
+        for i, function in enumerate(functions):
+            values[region == i] = function(*places[region == i].T)
+        return values
+
+    def pressure(self, places, region):
+        return self.at(self.u, places, region)
+
+    def sources(self, mesh, volumes):
+        """Integrals over tetrahedra, by the rule of four points that is exact for degree 2."""
+        corners = np.asarray(mesh.points)[np.asarray(mesh.tetrahedra)]
+        near, far = (5 + 3 * np.sqrt(5)) / 20, (5 - np.sqrt(5)) / 20
+        places = [far * corners.sum(axis=1) + (near - far) * corners[:, i] for i in range(4)]
+        return volumes * sum(self.at(self.f, p, mesh.regions - 1) for p in places) / 4
+
+
+def smooth_table(size, ratios):
+    head = ("ratio", "size", "tetrahedra", "bad", "error", "barycenters", "quotient", "order", "seconds")
+    print("{:>5} {:>6} {:>10} {:>13} {:>8} {:>11} {:>8} {:>5} {:>7}".format(*head))
+    with tempfile.TemporaryDirectory() as folder:
+        for ratio in ratios:
+            problem, before = Smooth(ratio), None
+            for level in range(4):
+                h = size / np.sqrt(2) ** level
+                mesh = meshed(problem, h, folder)
+                on_barycenters = error_of_barycenters(problem, mesh)
+                bad = temper.dec_operators(mesh, tensor=tensor_of(problem, mesh)).summarize().not_well_centered
+                start = time.perf_counter()
+                temper.optimize(mesh, target="cell", tensor=tensor_of(problem, mesh), boundary="slide", progress=False)
+                seconds = time.perf_counter() - start
+                tensor = tensor_of(problem, mesh)
+                error = error_of_duals(problem, mesh, tensor)
+                after = temper.dec_operators(mesh, tensor=tensor).summarize().not_well_centered
+                width = mesh.n_tetrahedra ** (-1 / 3)
+                order = "" if before is None else f"{np.log(before[0] / error) / np.log(before[1] / width):5.2f}"
+                print(
+                    f"{ratio:5g} {h:6.3f} {mesh.n_tetrahedra:10d} {bad:6d} {after:6d} {error:8.1e} {on_barycenters:11.1e} "
+                    f"{error / on_barycenters:8.3f} {order:>5} {seconds:7.2f}",
+                    flush=True,
+                )
+                before = error, width
+
+
+def table(size, ratios, names):
     head = ("case", "ratio", "tetrahedra", "bad", "edges", "faces", "error", "barycenters", "seconds")
     print("{:<10} {:>5} {:>10} {:>13} {:>8} {:>8} {:>8} {:>11} {:>7}".format(*head))
     with tempfile.TemporaryDirectory() as folder:
         for ratio in ratios:
-            for case in cases(ratio):
+            for case in (case for case in cases(ratio) if not names or case.name in names):
                 mesh = meshed(case, size, folder)
                 on_barycenters = error_of_barycenters(case, mesh)
                 before = temper.dec_operators(mesh, tensor=tensor_of(case, mesh)).summarize().not_well_centered
