@@ -28,6 +28,13 @@ struct Source {
   io::LoadedMesh loaded;  ///< Loaded mesh, whose mesh has been moved out
 };
 
+/// The rules by which data follow a mesh that changes.
+struct MeshDataRules {
+  io::DataRules of_points, of_cells = {io::DataRule::sample, {}};
+
+  [[nodiscard]] io::UpdateOptions options(Executor* executor) const { return {of_points, executor, of_cells}; }
+};
+
 /// Error: the mesh is being changed.
 void refuse_while_running(bool running);
 /// While it lives, nothing else may change the mesh that has the flag.
@@ -70,9 +77,8 @@ class PyMesh {
   [[nodiscard]] const std::shared_ptr<const Source>& source() const { return source_; }
   /// Number of each vertex in the source; empty: the same numbers.
   [[nodiscard]] IdVector<VertexId, VertexId> origin() const;
-  /// Rules by which data of its points follow the vertices.
-  [[nodiscard]] const io::DataRules& data_rules() const { return data_rules_; }
-  void set_data_rules(io::DataRules rules) { data_rules_ = std::move(rules); }
+  [[nodiscard]] const MeshDataRules& data_rules() const { return data_rules_; }
+  void set_data_rules(MeshDataRules rules) { data_rules_ = std::move(rules); }
   /// The number of this state. Only copies of the mesh have the same number. A plan for one state does not fit another.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
@@ -87,7 +93,7 @@ class PyMesh {
   std::shared_ptr<Mesh> mesh_;
   std::shared_ptr<const Source> source_;
   IdVector<VertexId, VertexId> origin_;
-  io::DataRules data_rules_;
+  MeshDataRules data_rules_;
   std::uint64_t version_ = new_version();
   bool erased_ = false, running_ = false;
 };
@@ -97,7 +103,8 @@ struct PyTetMesh {
   std::shared_ptr<const io::MeshFile> file;
   std::shared_ptr<const io::LoadedTetMesh> loaded;
   std::vector<std::int32_t> vertex_of_point;  ///< Present vertex of each point in the original file; −1: none
-  std::uint64_t version = 0;                  ///< Number of changes
+  MeshDataRules data_rules = {};
+  std::uint64_t version = 0;  ///< Number of changes
   bool running = false;
 
   [[nodiscard]] const tets::TetMesh& mesh() const { return loaded->mesh; }
@@ -192,6 +199,10 @@ std::pair<WeightReport, std::vector<double>> weights_in_metric(const AnyMesh& me
 void require_plane(const Mesh& mesh, std::string_view what);
 /// Raises for meshes of periodic planes.
 void require_no_period(const Mesh& mesh, std::string_view what);
+
+/// Gives a class of meshes the methods that read and set the rules of its data.
+template <class AnyMesh>
+void define_data_rules(py::class_<AnyMesh>& type);
 
 VertexId vertex_id(const Mesh& mesh, std::int64_t index);
 TriangleId triangle_id(const Mesh& mesh, std::int64_t index);

@@ -44,61 +44,64 @@ struct UpdatedFile {
   io::DataReport data;
 };
 
-/// The updated original file of the mesh, or a new one. Without the GIL it works on a copy of the mesh that was made
-/// with the GIL. The copy shares the memory, so other threads may change the mesh meanwhile.
-UpdatedFile updated_file_of(const PyMesh& self, Executor* executor, bool with_data = true) {
+/// What came with the mesh, in its present state, or the file of a mesh of arrays. Without the GIL it works on a copy
+/// of the mesh that was made with the GIL. The copy shares the memory, so other threads may change the mesh meanwhile.
+UpdatedFile updated(const PyMesh& self, io::MeshFile former, Executor* executor = nullptr) {
   const auto mesh = self.read();
   if (!self.source()) return {io::from_mesh(*mesh), {}};
-  UpdatedFile result{self.source()->file, {}};
-  if (!with_data) {
-    result.file.point_data.clear();
-    result.file.triangles.data.clear();
-  }
-  result.data = io::update(result.file, self.source()->loaded, *mesh, self.origin(), {self.data_rules(), executor});
+  UpdatedFile result{std::move(former), {}};
+  result.data =
+      io::update(result.file, self.source()->loaded, *mesh, self.origin(), self.data_rules().options(executor));
   return result;
 }
 
-io::MeshFile file_of(const PyMesh& self, Executor* executor = nullptr) { return updated_file_of(self, executor).file; }
+io::MeshFile former_file_of(const PyMesh& self) { return self.source() ? self.source()->file : io::MeshFile(); }
+
+UpdatedFile updated_file_of(const PyMesh& self, Executor* executor) {
+  return updated(self, former_file_of(self), executor);
+}
+
+/// The present file of the mesh with another array. The former values of the array need not follow the mesh.
+io::MeshFile file_with(const PyMesh& self, bool of_points, const std::string& name, const py::array& values) {
+  const auto arrays_of = [&](io::MeshFile & file) -> auto& {
+    return of_points ? file.point_data : file.triangles.data;
+  };
+  io::MeshFile former = former_file_of(self);
+  std::vector<std::string> before;  // arrays that stay before this one
+  for (const io::DataArray& a : arrays_of(former)) {
+    if (a.name == name) break;
+    before.push_back(a.name);
+  }
+  std::erase_if(arrays_of(former), [&](const io::DataArray& a) { return a.name == name; });
+  io::MeshFile file = updated(self, std::move(former)).file;
+  std::vector<io::DataArray>& arrays = arrays_of(file);
+  const auto place = std::ranges::find_if_not(
+      arrays, [&](const io::DataArray& a) { return std::ranges::find(before, a.name) != before.end(); });
+  arrays.insert(place, from_python_array(name, values, of_points ? file.points.size() : file.triangles.size(),
+                                         of_points ? "point data" : "cell data"));
+  return file;
+}
+
+io::MeshFile file_without(const PyMesh& self, bool of_points, const std::string& name) {
+  io::MeshFile file = updated_file_of(self, nullptr).file;
+  erase_array(of_points ? file.point_data : file.triangles.data, name);
+  return file;
+}
 
 /// Sets an array of point data or cell data, or with None removes it. The mesh then has a file with this array.
 void set_data(PyMesh& self, bool of_points, const std::string& name, const py::object& values) {
   const std::uint64_t version = self.version();
-  io::MeshFile file = file_of(self);
-  std::vector<io::DataArray>& arrays = of_points ? file.point_data : file.triangles.data;
-  auto array = std::find_if(arrays.begin(), arrays.end(), [&](const io::DataArray& a) { return a.name == name; });
-  if (values.is_none()) {
-    if (array == arrays.end()) throw py::key_error(name);
-    arrays.erase(array);
-  } else {
-    if (array == arrays.end()) array = arrays.insert(array, io::DataArray());
-    *array = from_python_array(name, values.cast<py::array>(), of_points ? file.points.size() : file.triangles.size(),
-                               of_points ? "point data" : "cell data");
-  }
+  io::MeshFile file = values.is_none() ? file_without(self, of_points, name)
+                                       : file_with(self, of_points, name, values.cast<py::array>());
+  MeshDataRules rules = without_absent(self.data_rules(), file);
+  check_data_rules(rules, file);
   const auto source = source_of(std::move(file), {}, {}, nullptr);
   source->loaded.mesh = Mesh();
   if (self.version() != version) {
     fail(ErrorCode::unsupported, "data '" + name + "' are as they were: another thread changed the mesh meanwhile");
   }
   self.set_source(source);
-}
-
-io::DataRules data_rules_from(const PyMesh& self, const py::sequence& words) {
-  const auto rules = io::parse_data_rules(strings_from(words));
-  if (!rules) throw BadInput{rules.error()};
-  or_raise(io::check_data_rules(*rules, self.source() ? self.source()->file.point_data : std::vector<io::DataArray>()));
-  return *rules;
-}
-
-/// The rules of a mesh, as words.
-std::vector<std::string> data_words(const PyMesh& self) {
-  const auto spell = [](io::DataRule rule) {
-    return std::string(rule == io::DataRule::keep       ? "keep"
-                       : rule == io::DataRule::conserve ? "conserve"
-                                                        : "interpolate");
-  };
-  std::vector<std::string> words = {spell(self.data_rules().rule)};
-  for (const auto& [name, rule] : self.data_rules().exceptions) words.push_back(spell(rule) + "=" + name);
-  return words;
+  self.set_data_rules(std::move(rules));
 }
 
 py::object data_report(const PyMesh& self, const py::object& threads) {
@@ -118,7 +121,9 @@ Record arrays_of(const io::MeshFile& file) {
 /// The file of the mesh as it is now. Without data of points and triangles, nothing has to be interpolated.
 py::dict file_as_dict(const PyMesh& self, bool with_data) {
   const PyMesh same = self.copy();
-  io::MeshFile file = aside([&] { return updated_file_of(same, nullptr, with_data).file; });
+  io::MeshFile former = former_file_of(self);
+  if (!with_data) former.point_data.clear(), former.triangles.data.clear();
+  io::MeshFile file = aside([&] { return updated(same, std::move(former)).file; });
   std::vector<Vec3> places;
   if (file.sphere() != nullptr) places = file.sphere()->places;
   if (places.empty()) {
@@ -202,7 +207,7 @@ py::object write_file(const std::string& path, const PyMesh& self, const std::st
   options.executor = executor.get();
   const PyMesh same = self.copy();
   return to_python(aside([&] {
-    io::MeshFile file = file_of(same, executor.get());
+    io::MeshFile file = updated_file_of(same, executor.get()).file;
     const auto written = or_raise(io::write(path, file, options));
     file.warnings.insert(file.warnings.end(), written.begin(), written.end());
     return std::move(file.warnings);
@@ -320,10 +325,6 @@ void bind_files(py::module_& m) {
   m.def("write", write_file);
   m.def("mesh_from_file_arrays", mesh_from_file_arrays);
   m.def("file_as_dict", file_as_dict);
-  m.def("data_rules", [](const PyMesh& self) { return to_python(data_words(self)); });
-  m.def("check_data_rules", [](const PyMesh& self, const py::sequence& words) { data_rules_from(self, words); });
-  m.def("set_data_rules",
-        [](PyMesh& self, const py::sequence& words) { self.set_data_rules(data_rules_from(self, words)); });
   m.def("data_report", data_report);
   m.def("set_data", set_data);
   m.def("vertices_of_points", vertices_of_points);

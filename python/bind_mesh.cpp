@@ -279,6 +279,7 @@ void bind_state(py::class_<PyMesh>& type) {
     const auto& source = self.source();
     return source && source->file.point_data.size() + source->file.triangles.data.size() > 0;
   });
+  define_data_rules(type);
   type.def("version", [](const PyMesh& self) { return self.version(); });
   type.def("copy", [](const PyMesh& self) { return self.copy(); });
   type.def("equal", [](const PyMesh& self, const PyMesh& other) {

@@ -1,5 +1,6 @@
 // The mesh of tetrahedra: made from arrays and files, shown as arrays, measured, improved and written. See
 // tets/mesh.hpp.
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -111,7 +112,8 @@ py::dict file_of_tets(const PyTetMesh& self) {
 io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins& origins, Executor* executor,
                        const std::vector<double>& corner_weights) {
   io::MeshFile file = *self.file;
-  io::DataReport data = aside([&] { return io::update(file, *self.loaded, mesh, origins, {{}, executor}); });
+  const io::UpdateOptions options = self.data_rules.options(executor);
+  io::DataReport data = aside([&] { return io::update(file, *self.loaded, mesh, origins, options); });
   io::set_corner_weights(file, corner_weights);
   std::vector<std::int32_t> now(self.mesh().n_vertices(), -1);
   for (const VertexId v : mesh.vertices()) {
@@ -122,6 +124,7 @@ io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins&
   // New vertices of a part that a tag lists are marked in the file alone.
   if (file.marked_points.size() != mesh.tagged_points().size()) mesh = or_raise(io::make_tet_mesh(file)).mesh;
   io::VertexOfPoint all(mesh.n_vertices());
+  self.data_rules = without_absent(std::move(self.data_rules), file);
   self.file = std::make_shared<const io::MeshFile>(std::move(file));
   self.loaded = std::make_shared<const io::LoadedTetMesh>(io::LoadedTetMesh{std::move(mesh), std::move(all), {}});
   ++self.version;
@@ -165,6 +168,27 @@ void set_tet_weights(PyTetMesh& self, const Doubles& weights) {
     mesh.set_weight(v, values[v.index]);
   }
   replace(self, std::move(mesh), {}, nullptr);
+}
+
+/// Sets an array of point data or cell data, or with None removes it.
+void set_tet_data(PyTetMesh& self, bool of_points, const std::string& name, const py::object& values) {
+  const Run run(self.running);
+  replace(self, self.mesh(), {}, nullptr);  // without points of no tetrahedron
+  io::MeshFile file = *self.file;
+  std::vector<io::DataArray>& arrays = of_points ? file.point_data : file.tetrahedra.data;
+  if (values.is_none()) {
+    erase_array(arrays, name);
+  } else {
+    io::DataArray array =
+        from_python_array(name, values.cast<py::array>(), of_points ? file.points.size() : file.tetrahedra.size(),
+                          of_points ? "point data" : "cell data");
+    const auto same = std::ranges::find(arrays, name, &io::DataArray::name);
+    (same == arrays.end() ? arrays.emplace_back() : *same) = std::move(array);
+  }
+  MeshDataRules rules = without_absent(self.data_rules, file);
+  check_data_rules(rules, file);
+  self.data_rules = std::move(rules);
+  self.file = std::make_shared<const io::MeshFile>(std::move(file));
 }
 
 /// The mesh gets its new state, whatever ended the run. Exceptions of the observer are raised after that. Returns the
@@ -254,6 +278,7 @@ py::tuple load_tetrahedra(io::MeshFile file, Executor* executor) {
 void bind_tets(py::module_& m) {
   m.def("tet_mesh_from_arrays", tets_from_arrays);
   m.def("write_tets", write_tets);
+  m.def("tet_set_data", set_tet_data);
   m.def("tet_quality", tet_quality);
   m.def("tet_optimize", optimize_tets);
   m.def("tetrahedron_quality", tetrahedron_quality_of);
@@ -269,6 +294,7 @@ void bind_tets(py::module_& m) {
   type.def("neighbors", neighbors_of);
   type.def("regions", tet_regions);
   type.def("file", file_of_tets);
+  define_data_rules(type);
   type.def("vertices_of_points", [](const PyTetMesh& self) { return array_of<std::int32_t>(self.vertex_of_point); });
   type.def("version", [](const PyTetMesh& self) { return self.version; });
   type.def("copy", [](const PyTetMesh& self) {

@@ -1,8 +1,10 @@
 // Data, tags and names of files, as arrays and dictionaries of Python.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -57,6 +59,16 @@ inline io::DataArray from_python_array(const std::string& name, const py::array&
   }
   return from_python_array(name, array);
 }
+
+/// Raises KeyError if there is no array with this name.
+inline void erase_array(std::vector<io::DataArray>& arrays, const std::string& name) {
+  if (std::erase_if(arrays, [&](const io::DataArray& a) { return a.name == name; }) == 0) throw py::key_error(name);
+}
+
+/// The rules, without those of arrays that the file does not have.
+[[nodiscard]] MeshDataRules without_absent(MeshDataRules rules, const io::MeshFile& file);
+/// Raises if a rule names no array of the file, or does not fit its array.
+void check_data_rules(const MeshDataRules& rules, const io::MeshFile& file);
 
 inline std::vector<io::DataArray> from_python_dict(const py::dict& dict, std::size_t size, const char* kind) {
   std::vector<io::DataArray> arrays;

@@ -380,6 +380,8 @@ struct DataRules {
 /// Reads rules from words: `interpolate`, `keep` or `conserve` for all arrays of points, `keep=NAME` and so on for one
 /// array. Those of cells are `sample` and `conserve`. Without a word for all arrays they are `interpolate` or `sample`.
 [[nodiscard]] Expected<DataRules> parse_data_rules(std::span<const std::string> words, DataOf of = DataOf::points);
+/// The words from which parse_data_rules() makes these rules: first the one for all arrays.
+[[nodiscard]] std::vector<std::string> data_rule_words(const DataRules& rules);
 /// Returns an error if an exception names no such array, or an array of integers for what only floating point data
 /// can, or conserves an array with a value that is not finite.
 [[nodiscard]] Expected<void> check_data_rules(const DataRules& rules, const std::vector<DataArray>& arrays,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
 from typing import Any, Iterator, Literal, MutableMapping, Sequence, Union
 
@@ -59,15 +60,7 @@ def _doubles(values: Any, columns: int, name: str) -> npt.NDArray[np.float64]:
 
 
 DataRules = Union[str, Sequence[str]]
-"""The treatment of data when vertices move: see ``Mesh.point_data_rules``."""
-
-
-def data_rules(words: DataRules) -> tuple[str, ...]:
-    """One or several words as a tuple."""
-    rules = (words,) if isinstance(words, str) else tuple(words)
-    if not all(isinstance(word, str) for word in rules):
-        raise TypeError(f"point_data: expected a word or a sequence of words, found {words!r}")
-    return rules
+"""The treatment of data when a mesh changes: see ``Mesh.point_data_rules`` and ``Mesh.cell_data_rules``."""
 
 
 def _planar(points: Any) -> npt.NDArray[np.float64]:
@@ -90,14 +83,20 @@ def _places(points: Any, space: Space) -> npt.NDArray[np.float64]:
 
 
 class Data(MutableMapping[str, npt.NDArray[Any]]):
-    """Named arrays of a mesh, with a row for each point or triangle. They show the state of the mesh at the time of the
+    """Named arrays of a mesh, with a row for each point or cell. They show the state of the mesh at the time of the
     call. Assigning or deleting an array changes the mesh. The arrays themselves are read-only copies."""
 
-    def __init__(self, mesh: Mesh, kind: Literal["point_data", "cell_data"]) -> None:
+    def __init__(self, mesh: Tagged, kind: Literal["point_data", "cell_data"]) -> None:
         self._mesh, self._kind = mesh, kind
-        self._arrays = _temper.file_as_dict(mesh._handle, True)[kind]
-        for array in self._arrays.values():
+        self._state = mesh.copy()
+
+    @functools.cached_property
+    def _arrays(self) -> dict[str, npt.NDArray[Any]]:
+        """Computed when the first array is read: data have to follow the mesh."""
+        arrays = self._state._file(with_data=True)[self._kind]
+        for array in arrays.values():
             array.flags.writeable = False
+        return arrays
 
     def __getitem__(self, name: str) -> npt.NDArray[Any]:
         return self._arrays[name]
@@ -122,8 +121,9 @@ class Data(MutableMapping[str, npt.NDArray[Any]]):
         return repr(self._arrays)
 
     def _store(self, name: str, array: npt.NDArray[Any] | None) -> None:
-        _temper.set_data(self._mesh._handle, self._kind == "point_data", name, array)
-        self._arrays = Data(self._mesh, self._kind)._arrays
+        self._mesh._set_data(self._kind == "point_data", name, array)
+        self._state = self._mesh.copy()
+        self.__dict__.pop("_arrays", None)
 
 
 class Tagged:
@@ -135,7 +135,13 @@ class Tagged:
     warnings: list[str]
     """Repairs and losses when the mesh was made or read, in sentences."""
 
-    def _file(self) -> dict[str, Any]:
+    def _file(self, *, with_data: bool = False) -> dict[str, Any]:
+        raise NotImplementedError
+
+    def _set_data(self, of_points: bool, name: str, array: npt.NDArray[Any] | None) -> None:
+        raise NotImplementedError
+
+    def copy(self) -> Any:
         raise NotImplementedError
 
     @property
@@ -172,6 +178,68 @@ class Tagged:
         ((8, 2), [7, 8], {})
         """
         return {name: (dimension, tag) for dimension, tag, name in sorted(self._file()["names"])}
+
+    @property
+    def point_data(self) -> Data:
+        """Data of the points, from the mesh's file or assigned, in their present state (``point_data_rules``):
+        ``mesh.point_data["depth"] = depth``."""
+        return Data(self, "point_data")
+
+    @property
+    def cell_data(self) -> Data:
+        """Data of the triangles or tetrahedra, from the mesh's file or assigned, in their present state
+        (``cell_data_rules``)."""
+        return Data(self, "cell_data")
+
+    @property
+    def point_data_rules(self) -> tuple[str, ...]:
+        """Rules for floating point data of points when the mesh changes, in the words of ``--point-data``.
+
+        ``"interpolate"``, the default: data belong to the place and are linear on the original cells, so that a depth
+        stays where it was measured. ``"keep"``: data stay with their point. ``"conserve"``: data are means over power
+        cells, and their integrals stay. ``"keep=NAME"``, ``"interpolate=NAME"`` and ``"conserve=NAME"`` are for one
+        array. Integers always stay with their points. Assigning one word or several replaces all rules, and so does
+        ``()``. In a ``TetMesh`` the rules hold for later changes. In a ``Mesh`` they hold for all changes since data
+        were last read from a file or assigned.
+
+        TemperError lists the rules or the arrays that exist if a word names another. A rule that does not fit its array
+        is an error, too.
+        """
+        return tuple(self._handle.data_rules(True))
+
+    @point_data_rules.setter
+    def point_data_rules(self, words: DataRules) -> None:
+        self._set_rules("point_data_rules", words)
+
+    @property
+    def cell_data_rules(self) -> tuple[str, ...]:
+        """Rules for floating point data of triangles or tetrahedra, in the words of ``--cell-data``.
+
+        ``"sample"``, the default: a cell has the data of the original cell that contains its middle. ``"conserve"``:
+        data are means over cells, and their integrals over the domain and each region stay. ``"sample=NAME"`` and
+        ``"conserve=NAME"`` are for one array. Integers are always sampled. All else is as in ``point_data_rules``.
+
+        >>> import numpy as np, temper
+        >>> mesh = temper.generate.annulus()
+        >>> mesh.cell_data["u"] = mesh.points[mesh.triangles].mean(axis=1)[:, 0]
+        >>> mesh.cell_data_rules = "conserve"
+        >>> before = np.sum(temper.dec_operators(mesh).areas * mesh.cell_data["u"])
+        >>> report = temper.optimize(mesh)
+        >>> after = np.sum(temper.dec_operators(mesh).areas * mesh.cell_data["u"])
+        >>> bool(abs(after - before) < 1e-13 * mesh.n_triangles), report.data.conserved_of_triangles
+        (True, ['u'])
+        """
+        return tuple(self._handle.data_rules(False))
+
+    @cell_data_rules.setter
+    def cell_data_rules(self, words: DataRules) -> None:
+        self._set_rules("cell_data_rules", words)
+
+    def _set_rules(self, name: Literal["point_data_rules", "cell_data_rules"], words: DataRules) -> None:
+        rules = (words,) if isinstance(words, str) else tuple(words)
+        if not all(isinstance(word, str) for word in rules):
+            raise TypeError(f"{name}: expected a word or a sequence of words, found {words!r}")
+        self._handle.set_data_rules(name == "point_data_rules", rules)
 
     def validate(self) -> str | None:
         """Checks the mesh, for example that every triangle or tetrahedron is positive (exact). Returns the first fault,
@@ -398,8 +466,11 @@ class Mesh(Tagged):
 
     # --- tags and names -------------------------------------------------------------------------------------
 
-    def _file(self) -> dict[str, Any]:
-        return _temper.file_as_dict(self._handle, False)
+    def _file(self, *, with_data: bool = False) -> dict[str, Any]:
+        return _temper.file_as_dict(self._handle, with_data)
+
+    def _set_data(self, of_points: bool, name: str, array: npt.NDArray[Any] | None) -> None:
+        _temper.set_data(self._handle, of_points, name, array)
 
     @property
     def tags(self) -> npt.NDArray[np.int32]:
@@ -455,37 +526,11 @@ class Mesh(Tagged):
         vectors = None if self.space.is_plane else np.array(self.weighted_vectors)
         vertices = (self.space, np.array(self.points), np.array(self.weights), vectors, self.fixed)
         triangles = (np.array(self.triangles), self.constrained_edges, self.regions)
-        source = (_temper.source_as_dict(self._handle), self.point_data_rules)
+        source = (_temper.source_as_dict(self._handle), (self.point_data_rules, self.cell_data_rules))
         state = {"reversed_triangles": self.reversed_triangles, "warnings": self.warnings}
         return _unpickle, (vertices, triangles, source), (None, state)
 
-    # --- data that came with the mesh, and other libraries ----------------------------------------------------
-
-    @property
-    def point_data(self) -> Data:
-        """Data of the points, from the mesh's file or assigned, in their current state (``point_data_rules``):
-        ``mesh.point_data["depth"] = depth``."""
-        return Data(self, "point_data")
-
-    @property
-    def cell_data(self) -> Data:
-        """Data of the triangles, from the mesh's file or assigned. Each triangle has the data of the original triangle
-        that contains its middle."""
-        return Data(self, "cell_data")
-
-    @property
-    def point_data_rules(self) -> tuple[str, ...]:
-        """Rules for floating point data of points when vertices move, in words. ``"interpolate"`` (the default): data
-        belong to the place and are linear on the original triangles, so that a depth stays where it was measured.
-        ``"keep"``: data stay with their point. ``"conserve"``: data are means over power cells, and their integrals
-        stay. ``"keep=NAME"``, ``"interpolate=NAME"`` and ``"conserve=NAME"`` are for one array. Integers always stay
-        with their points. Assigning one word or several replaces all rules. TemperError if an array does
-        not exist."""
-        return tuple(_temper.data_rules(self._handle))
-
-    @point_data_rules.setter
-    def point_data_rules(self, words: DataRules) -> None:
-        _temper.set_data_rules(self._handle, data_rules(words))
+    # --- other libraries --------------------------------------------------------------------------------------
 
     def to_meshio(self) -> Any:
         """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats. Needs meshio.
@@ -567,7 +612,7 @@ def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tup
     file, rules = source
     if file is not None:
         _temper.set_source_from_dict(mesh._handle, file)
-    mesh.point_data_rules = rules
+    mesh.point_data_rules, mesh.cell_data_rules = rules
     return mesh
 
 

@@ -116,7 +116,7 @@ def optimize(
     constrained edges stay, bit for bit, unless ``boundary`` and the option ``interfaces`` allow changes. For barriers
     (``BP``, ``BHs``, ``BH``) the result never has more triangles that are not well-centered than the input. For HOT
     energies (``F``, ``T``, ``dT``) it may have more. Equal inputs, options and seeds give equal bits for any number of
-    threads. Data of points follow ``Mesh.point_data_rules``.
+    threads. Data follow ``Mesh.point_data_rules`` and ``Mesh.cell_data_rules``.
 
     Parameters
     ----------

@@ -149,7 +149,8 @@ class Optimizer:
         """Makes the changes that wait: moves, then weights, then removals, then insertions. Then makes the mesh good by
         the least change. A mesh that needs nothing costs one check.
 
-        Weights that would hide a vertex change. Data of points follow ``Mesh.point_data_rules``.
+        Weights that would hide a vertex change. Data follow ``Mesh.point_data_rules`` and
+        ``Mesh.cell_data_rules``.
 
         Parameters
         ----------

@@ -193,7 +193,7 @@ class TetMesh(Tagged):
 
     # --- tags, names and data -------------------------------------------------------------------------------
 
-    def _file(self) -> dict[str, Any]:
+    def _file(self, *, with_data: bool = True) -> dict[str, Any]:
         """The contents of the file, in the numbers of the vertices. Elements that have lost a point are dropped."""
         file = self._handle.file()
         number = file.pop("vertices")
@@ -207,6 +207,9 @@ class TetMesh(Tagged):
             file[data] = {name: values[kept] for name, values in file[data].items()}
         file["point_data"] = {name: values[number >= 0] for name, values in file["point_data"].items()}
         return file
+
+    def _set_data(self, of_points: bool, name: str, array: npt.NDArray[Any] | None) -> None:
+        _temper.tet_set_data(self._handle, of_points, name, array)
 
     @property
     def tagged_faces(self) -> npt.NDArray[np.int32]:
@@ -222,16 +225,6 @@ class TetMesh(Tagged):
     def line_tags(self) -> npt.NDArray[np.int32]:
         """Tag of each of ``lines``, (k,) int32. A copy."""
         return self._file()["line_tags"]
-
-    @property
-    def point_data(self) -> dict[str, npt.NDArray[Any]]:
-        """Data of the vertices, from the mesh's file: arrays with n rows. Copies."""
-        return self._file()["point_data"]
-
-    @property
-    def cell_data(self) -> dict[str, npt.NDArray[Any]]:
-        """Data of the tetrahedra, from the mesh's file: arrays with m rows. Copies."""
-        return self._file()["cell_data"]
 
     # --- methods --------------------------------------------------------------------------------------------
 
@@ -261,7 +254,7 @@ class TetMesh(Tagged):
         """Everything but the name and the format of the file, for another process. To keep a mesh, write it."""
         arrays = {**self._file(), "points": self.points, "weights": np.array(self.weights)}
         arrays |= {"tetrahedra": np.array(self.tetrahedra), "regions": self.regions}
-        return _unpickle, (arrays, self.warnings)
+        return _unpickle, (arrays, self.warnings, (self.point_data_rules, self.cell_data_rules))
 
     def __repr__(self) -> str:
         vertices = "1 vertex" if self.n_vertices == 1 else f"{self.n_vertices} vertices"
@@ -269,8 +262,10 @@ class TetMesh(Tagged):
         return f"<temper.TetMesh: {vertices}, {tetrahedra}>"
 
 
-def _unpickle(arrays: dict[str, Any], messages: list[str]) -> TetMesh:
-    return TetMesh._of(_temper.tet_mesh_from_arrays(arrays, False, None)[0], messages, None)
+def _unpickle(arrays: dict[str, Any], messages: list[str], rules: tuple[tuple[str, ...], ...]) -> TetMesh:
+    mesh = TetMesh._of(_temper.tet_mesh_from_arrays(arrays, False, None)[0], messages, None)
+    mesh.point_data_rules, mesh.cell_data_rules = rules
+    return mesh
 
 
 def _cells(mesh: Any) -> Any:

@@ -47,7 +47,7 @@ ELSEWHERE = {
     "merge_points": "read(merge=…)", "find_crack": "temper check warns", "flip_flat_triangles": "temper convert does it",
     "reason_text": "Reason.text", "reason_words": "as reason_text", "cure_text": "Cure.text",
     "make_mesh": "read and from_meshio make the mesh", "make_tet_mesh": "as make_mesh", "expect_triangles": "read takes both kinds", "update": "write does it", "set_points": "from_meshio does it", "release_geometry": "read does it",
-    "parse_data_rules": "Mesh.point_data_rules", "check_data_rules": "as parse_data_rules",
+    "parse_data_rules": "Mesh.point_data_rules", "check_data_rules": "as parse_data_rules", "data_rule_words": "as parse_data_rules",
     "overlaps": "Mesh.cell_data_rules", "conserve": "as overlaps",
     "positions_of_vertices": "Mesh.point_data", "sources_of_tetrahedra": "TetMesh.cell_data", "find_tetrahedron": "as sources_of_tetrahedra", "tetrahedron_near": "as sources_of_tetrahedra", "sources_of_triangles": "Mesh.cell_data", "interpolated": "Mesh.point_data",
     "seams_of": "find_weights keeps the equations of interfaces", "with_mesh": "as seams_of", "close_gaps": "as seams_of", "largest_gap": "as seams_of",

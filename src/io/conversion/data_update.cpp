@@ -122,6 +122,13 @@ Expected<DataRules> parse_data_rules(std::span<const std::string> words, DataOf 
   return rules;
 }
 
+std::vector<std::string> data_rule_words(const DataRules& rules) {
+  const auto name = [](DataRule rule) { return std::string(std::ranges::find(kRules, rule, &NamedRule::rule)->name); };
+  std::vector<std::string> words = {name(rules.rule)};
+  for (const auto& [array, rule] : rules.exceptions) words.push_back(text(name(rule), "=", array));
+  return words;
+}
+
 Expected<void> check_data_rules(const DataRules& rules, const std::vector<DataArray>& arrays, DataOf of) {
   for (const auto& [name, rule] : rules.exceptions) {
     const DataArray* array = find(arrays, name);

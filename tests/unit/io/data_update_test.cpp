@@ -248,6 +248,18 @@ TEST(DataRules, ThatMakeNoSenseAreRefusedByName) {
             "interpolated");
 }
 
+TEST(DataRules, AreMadeAgainFromTheirWords) {
+  const auto again = [](const std::vector<std::string>& words, DataOf of) {
+    return data_rule_words(*parse_data_rules(words, of));
+  };
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(again({}, DataOf::points), Words{"interpolate"});
+  EXPECT_EQ(again({}, DataOf::cells), Words{"sample"});
+  const Words points = {"keep", "interpolate=a", "conserve=b=c"}, cells = {"conserve", "sample=d"};
+  EXPECT_EQ(again(points, DataOf::points), points);
+  EXPECT_EQ(again(cells, DataOf::cells), cells);
+}
+
 TEST(DataRules, OfCellsAreSampleAndConserve) {
   MeshFile f = file_with_data();
   const auto error = [&](const std::vector<std::string>& words) {
