@@ -30,6 +30,7 @@ ELSEWHERE = {
     "tetrahedron_energy": "the gallery draws it", "missing_need": "optimize warns", "spell_options": "texts are spelled", "stopped_early": "OptimizeReport.stopped",
     "nearest": "errors suggest a name", "join": "as nearest", "did_you_mean": "as nearest", "none_of": "as nearest",
     "read_number": "float", "read_by_strtod": "float",
+    **dict.fromkeys(["dual_length_sign", "dual_over_length", "is_flat"], "curved surfaces are in C++ alone"),
     "triangle_values": "NumPy, of mesh and dec", "spread": "NumPy", "orient2d": "geometry.orientation",
     "as_vector": "Mesh.weighted_vectors", "as_point": "arrays have three columns", "expect_plane": "functions do it",
     "expect_no_period": "functions do it",
