@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -180,5 +181,41 @@ struct BuiltSurface {
 /// in space: each orthocenter in the plane of its triangle, and the weighted midpoints of edges. Areas and dual areas
 /// are those of the plane triangles. Precondition: fewer than 2³¹ edges. O(n).
 [[nodiscard]] DecComplex dec_operators(const SurfaceMesh& mesh);
+
+// --- optimization ---------------------------------------------------------------------------------------------------
+
+struct OptimizeOptions {
+  Criterion criterion = Criterion::well_centered;  ///< What the mesh must meet: the run ends when it does
+  double margin = 0.01;                            ///< Margin t of the final weights, in (0, 1/2)
+  /// Largest distance between input and result, in parts of the diagonal of the bounding box.
+  double surface_distance = 0.005;
+  /// Creases are edges whose triangles turn by more than this angle [degrees]. They and their vertices stay.
+  double crease_angle_deg = 70;
+  bool may_flip = true;                  ///< Allow flips of edges in space
+  bool may_insert = true;                ///< Allow edges to be split and collapsed next to bad triangles
+  std::function<bool()> must_stop = {};  ///< If it says yes, the run ends with the best mesh so far
+};
+
+struct OptimizeReport {
+  Quality before, after;
+  std::size_t violations_before = 0, violations_after = 0;  ///< Numbers of violations of the criterion
+  /// Largest distance between input and result, at vertices, centers of triangles and middles of edges, measured both
+  /// ways [length].
+  double surface_distance = 0;
+  double diagonal = 0;      ///< Diagonal of the bounding box of the input [length]
+  std::size_t rounds = 0;   ///< Number of rounds that moved all vertices
+  std::size_t flips = 0;    ///< Number of flips in these rounds
+  std::size_t repairs = 0;  ///< Number of edits next to bad triangles
+  std::size_t crease_edges = 0;
+  bool stopped = false;  ///< must_stop ended the run
+  /// Number in the input of each vertex, invalid for inserted ones. Empty: the numbers are the same.
+  IdVector<VertexId, VertexId> vertices;
+};
+
+/// Improves a mesh in place until it meets the criterion. Vertices move in their tangent planes and come back to the
+/// input surface. Edges flip in space, and weights follow by linear programs. Vertices on the boundary, on constrained
+/// edges and on creases stay, and so do fixed ones. Errors: an option out of range.
+[[nodiscard]] Expected<OptimizeReport> optimize(SurfaceMesh& mesh, LpSolver& solver,
+                                                const OptimizeOptions& options = {});
 
 }  // namespace temper::surfaces

@@ -70,6 +70,16 @@ inline SurfaceArrays lifted(const Mesh& plane) {
   return mapped(plane, [](Vec2 p) { return Vec3{p.x, p.y, 0}; });
 }
 
+/// Two triangles between the points a and a + 1 and those `next` numbers later, with a random diagonal.
+inline void add_square(std::vector<std::array<std::int32_t, 3>>& triangles, int a, int next, Rng& rng) {
+  const int b = a + next, c = b + 1, d = a + 1;
+  if (rng.below(2) == 0) {
+    triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+  } else {
+    triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
+  }
+}
+
 /// A strip of n columns between the lines x = 0, 1, …, with random points on these lines, weights and diagonals.
 inline Mesh plane_strip(int n, std::uint64_t seed) {
   Rng rng(seed);
@@ -84,12 +94,7 @@ inline Mesh plane_strip(int n, std::uint64_t seed) {
   std::vector<std::array<std::int32_t, 3>> triangles;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
-      const int a = i * (n + 1) + j, b = a + n + 1, c = b + 1, d = a + 1;
-      if (rng.below(2) == 0) {
-        triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
-      } else {
-        triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
-      }
+      add_square(triangles, i * (n + 1) + j, n + 1, rng);
     }
   }
   MeshInput input;
@@ -109,35 +114,25 @@ inline SurfaceArrays folded(const Mesh& strip, double angle) {
   });
 }
 
-/// Right-angled triangles on a torus, n around and m through the hole.
-inline SurfaceArrays torus(int n, int m, double radius = 1, double tube = 0.4) {
-  SurfaceArrays arrays;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < m; ++j) {
-      const double u = 2 * std::numbers::pi * i / n, v = 2 * std::numbers::pi * j / m;
-      const double away = radius + tube * std::cos(v);
-      arrays.points.push_back({away * std::cos(u), away * std::sin(u), tube * std::sin(v)});
-      const int a = i * m + j, b = (i + 1) % n * m + j, c = (i + 1) % n * m + (j + 1) % m, d = i * m + (j + 1) % m;
-      arrays.triangles.insert(arrays.triangles.end(), {{a, b, c}, {a, c, d}});
-    }
-  }
-  return arrays;
+/// A place on the torus of radius 1 whose tube has radius 0.4.
+inline Vec3 on_torus(double u, double v) {
+  const double away = 1 + 0.4 * std::cos(v);
+  return {away * std::cos(u), away * std::sin(u), 0.4 * std::sin(v)};
 }
 
-/// The same with every other ring turned by half a step: isosceles triangles. m is even.
-inline SurfaceArrays staggered_torus(int n, int m, double radius = 1, double tube = 0.4) {
+/// A torus of n times m trapezoids, each cut in two. If `staggered`, every other ring is turned by half a step: then m
+/// is even, and triangles are isosceles.
+inline SurfaceArrays torus(int n, int m, bool staggered = false) {
   SurfaceArrays arrays;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < m; ++j) {
-      const double u = 2 * std::numbers::pi * (i + 0.5 * (j % 2)) / n, v = 2 * std::numbers::pi * j / m;
-      const double away = radius + tube * std::cos(v);
-      arrays.points.push_back({away * std::cos(u), away * std::sin(u), tube * std::sin(v)});
-      const int next = (i + 1) % n * m, up = (j + 1) % m;
-      const int a = i * m + j, b = next + j, c = i * m + up, d = next + up;
-      if (j % 2 == 0) {
-        arrays.triangles.insert(arrays.triangles.end(), {{a, b, c}, {b, d, c}});
+      const double turn = staggered ? 0.5 * (j % 2) : 0;
+      arrays.points.push_back(on_torus(2 * std::numbers::pi * (i + turn) / n, 2 * std::numbers::pi * j / m));
+      const int a = i * m + j, b = (i + 1) % n * m + j, c = (i + 1) % n * m + (j + 1) % m, d = i * m + (j + 1) % m;
+      if (staggered && j % 2 == 0) {
+        arrays.triangles.insert(arrays.triangles.end(), {{a, b, d}, {b, c, d}});
       } else {
-        arrays.triangles.insert(arrays.triangles.end(), {{a, d, c}, {a, b, d}});
+        arrays.triangles.insert(arrays.triangles.end(), {{a, b, c}, {a, c, d}});
       }
     }
   }

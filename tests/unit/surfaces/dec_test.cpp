@@ -149,7 +149,7 @@ TEST(SurfaceOperators, TheFirstEigenvalueOfATorusHasOrderTwo) {
   constexpr double kEigenvalue = 1.028956156015;
   double coarser = 0;
   for (const int n : {12, 24, 48}) {
-    const test::SurfaceArrays arrays = test::staggered_torus(2 * n, n);
+    const test::SurfaceArrays arrays = test::torus(2 * n, n, true);
     const DecComplex c = dec_operators(test::mesh_of(arrays));
     for (const double x : c.star1) ASSERT_GT(x, 0);
     Values u;

@@ -1,0 +1,46 @@
+// The point of a surface that is closest to a given point.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geometry/bounding_boxes.hpp"
+#include "temper/surfaces.hpp"
+
+namespace temper::surfaces {
+
+struct ClosestPoint {
+  Vec3 at;
+  double squared_distance = 0;
+  std::uint32_t triangle = 0;
+};
+
+/// The triangles of a surface in a tree of boxes, each halved by count along its longest side.
+class ClosestPoints {
+ public:
+  explicit ClosestPoints(const SurfaceMesh& mesh);
+
+  /// Of equally close points always the same. O(log n) for points near the surface.
+  [[nodiscard]] ClosestPoint find(Vec3 p) const;
+  [[nodiscard]] double distance(Vec3 p) const { return std::sqrt(find(p).squared_distance); }
+
+ private:
+  using Triangle = std::array<Vec3, 3>;
+  static constexpr std::size_t kLeaf = 4;
+
+  [[nodiscard]] BoundingBox box_of(std::size_t first, std::size_t last) const;
+  void build(std::size_t node, std::size_t first, std::size_t last);
+  void search(std::size_t node, std::size_t first, std::size_t last, Vec3 p, ClosestPoint& best) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> order_;
+  std::vector<BoundingBox> boxes_;  ///< Of node i; its halves are 2 i + 1 and 2 i + 2
+};
+
+/// The point of a triangle that is closest to p.
+[[nodiscard]] Vec3 closest_point(const std::array<Vec3, 3>& triangle, Vec3 p);
+
+}  // namespace temper::surfaces

@@ -1,0 +1,144 @@
+#include "surfaces/optimize/draft.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surfaces/optimize/barrier.hpp"
+
+namespace temper::surfaces {
+namespace {
+
+// Steps that lower the mean energy of a triangle by less than this are not worth their time.
+constexpr double kSmallGain = 1e-5;
+// The least cosine between the normals of a triangle before and after its vertices moved.
+constexpr double kLeastCosine = 0.3;
+
+/// Two unit vectors across a normal.
+std::array<Vec3, 2> tangents_of(Vec3 normal) {
+  const Vec3 axis = std::abs(normal.x) < 0.6 * length(normal) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 one = cross(normal, axis), unit = (1 / length(one)) * one, other = cross(normal, unit);
+  return {unit, (1 / length(other)) * other};
+}
+
+}  // namespace
+
+double width_of(const std::array<Vec3, 3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  const double longest = std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
+  return length(normal_of(a, b, c)) / longest;
+}
+
+bool has_kept_shape(const std::array<Vec3, 3>& before, const std::array<Vec3, 3>& after) {
+  const Vec3 n = normal_of(before[0], before[1], before[2]), m = normal_of(after[0], after[1], after[2]);
+  return dot(n, m) >= kLeastCosine * length(n) * length(m) && width_of(after) >= std::min(kThin, width_of(before));
+}
+
+bool DraftEnergy::has_kept_shape(std::size_t e) const {
+  const auto places = [&](const IdVector<VertexId, WeightedPoint>& points) {
+    const auto& [a, b, c] = corners(e);
+    return std::array{points[a].position(), points[b].position(), points[c].position()};
+  };
+  return surfaces::has_kept_shape(places(first_), places(draft_.points));
+}
+
+DraftEnergy::DraftEnergy(Draft& draft, double gamma)
+    : draft_(draft), gamma_(gamma), first_(draft.points), start_(draft.points) {
+  const std::size_t n = draft.points.size();
+  IdVector<VertexId, Vec3> normals(n);
+  IdVector<VertexId, double> lengths(n, 0.0), counts(n, 0.0);
+  for (std::size_t e = 0; e < n_elements(); ++e) {
+    const Vec3 normal = normal_of(e, first_);
+    normals_.push_back((1 / length(normal)) * normal);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = corners(e)[k], b = corners(e)[(k + 1) % 3];
+      normals[a] = normals[a] + normal;
+      const double l = length(first_[b].position() - first_[a].position());
+      lengths[a] += l, lengths[b] += l;
+      counts[a] += 1, counts[b] += 1;
+    }
+  }
+  for (const VertexId v : IdRange<VertexId>(n)) {
+    const double unit = counts[v] > 0 ? lengths[v] / counts[v] : 1;
+    const bool is_flat = !(squared_length(normals[v]) > 0);
+    const auto [one, other] = tangents_of(is_flat ? Vec3{0, 0, 1} : normals[v]);
+    tangents_.push_back({unit * one, unit * other});
+    areas_.push_back(unit * unit);
+  }
+}
+
+void DraftEnergy::place(const std::vector<double>& step, double part) {
+  for (std::size_t i = 0; i < start_.size(); ++i) {
+    const VertexId v(i);
+    WeightedPoint p = start_[v];
+    if (draft_.moves[v] != 0) {
+      const auto& [one, other] = tangents_[v];
+      const Vec3 at = p.position() + (part * step[3 * i]) * one + (part * step[3 * i + 1]) * other;
+      p.x = at.x, p.y = at.y, p.z = at.z;
+    }
+    if (draft_.weighs[v] != 0) p.w += part * step[3 * i + 2] * areas_[v];
+    draft_.points[v] = p;
+  }
+}
+
+bool DraftEnergy::is_inside() const {
+  for (std::size_t e = 0; e < n_elements(); ++e) {
+    if (!(room(e) > 0)) return false;
+  }
+  return true;
+}
+
+DraftEnergy::Value DraftEnergy::value() const {
+  Value sum;
+  sum.gradient.assign(kUnknowns * draft_.points.size(), 0);
+  for (const std::array<VertexId, 3>& t : draft_.triangles) {
+    const BarrierValue e = barrier({draft_.points[t[0]], draft_.points[t[1]], draft_.points[t[2]]}, gamma_);
+    sum.lowered += e.value;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId v = t[k];
+      double* const slope = sum.gradient.data() + kUnknowns * v.index;
+      if (draft_.moves[v] != 0) {
+        slope[0] += dot(e.by_corner[k], tangents_[v][0]);
+        slope[1] += dot(e.by_corner[k], tangents_[v][1]);
+      }
+      if (draft_.weighs[v] != 0) slope[2] += e.by_weight[k] * areas_[v];
+    }
+  }
+  return sum;
+}
+
+void DraftEnergy::lower(int steps, const std::function<bool()>& must_stop) {
+  Descent descent;
+  Value now = value();
+  for (int i = 0; i < steps; ++i) {
+    const double before = now.lowered;
+    const Descent::Outcome outcome = descent.take_step(*this, now, nullptr, must_stop);
+    keep();
+    if (outcome == Descent::Outcome::stuck || outcome == Descent::Outcome::stopped) return;
+    const double gain = before - now.lowered;
+    if (outcome == Descent::Outcome::taken && gain < kSmallGain * static_cast<double>(n_elements())) return;
+  }
+}
+
+void DraftEnergy::project(const ClosestPoints& surface) {
+  for (const VertexId v : IdRange<VertexId>(first_.size())) {
+    if (draft_.moves[v] == 0) continue;
+    const Vec3 at = surface.find(draft_.points[v].position()).at;
+    draft_.points[v] = {at.x, at.y, at.z, draft_.points[v].w};
+  }
+  const auto go_back = [&](VertexId v) {
+    const WeightedPoint& p = first_[v];
+    const bool was_back = draft_.points[v].position() == p.position();
+    draft_.points[v] = {p.x, p.y, p.z, draft_.points[v].w};
+    return !was_back;
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t e = 0; e < n_elements(); ++e) {
+      if (has_kept_shape(e)) continue;
+      for (const VertexId v : corners(e)) changed = go_back(v) || changed;
+    }
+  }
+  keep();
+}
+
+}  // namespace temper::surfaces

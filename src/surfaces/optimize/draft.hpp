@@ -1,0 +1,75 @@
+// A surface, or a part of it, whose vertices move in their tangent planes and come back to the input surface.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/descent.hpp"
+#include "surfaces/optimize/closest_point.hpp"
+#include "temper/surfaces.hpp"
+
+namespace temper::surfaces {
+
+struct Draft {
+  IdVector<VertexId, WeightedPoint> points;
+  std::vector<std::array<VertexId, 3>> triangles;
+  IdVector<VertexId, std::uint8_t> moves;   ///< Says whether the position of a vertex may change
+  IdVector<VertexId, std::uint8_t> weighs;  ///< Says whether its weight may
+};
+
+[[nodiscard]] inline Vec3 normal_of(Vec3 a, Vec3 b, Vec3 c) { return cross(b - a, c - a); }
+
+/// Twice the area over the square of the longest side: 0.87 for equilateral triangles.
+[[nodiscard]] double width_of(const std::array<Vec3, 3>& triangle);
+/// Widths below this are thin: a step makes no triangle thin, and no thin one thinner.
+inline constexpr double kThin = 0.2;
+/// Says whether a triangle still faces the way that it did, and has not become thin.
+[[nodiscard]] bool has_kept_shape(const std::array<Vec3, 3>& before, const std::array<Vec3, 3>& after);
+
+/// The sum of the energies of all triangles (barrier.hpp), as Descent needs it. A vertex has three unknowns: two in its
+/// tangent plane, in units of its mean edge, and its weight, in units of the square of that.
+class DraftEnergy {
+ public:
+  static constexpr std::size_t kUnknowns = 3;
+  struct Value {
+    double lowered = 0;
+    std::vector<double> gradient;
+  };
+
+  DraftEnergy(Draft& draft, double gamma);
+
+  [[nodiscard]] std::size_t n_elements() const { return draft_.triangles.size(); }
+  [[nodiscard]] const std::array<VertexId, 3>& corners(std::size_t e) const { return draft_.triangles[e]; }
+  /// The area along the first normal: a triangle that folds over has less than none.
+  [[nodiscard]] double room(std::size_t e) const { return dot(normal_of(e, draft_.points), normals_[e]); }
+  void place(const std::vector<double>& step, double part);
+  [[nodiscard]] bool is_inside() const;
+  [[nodiscard]] Value value() const;
+  /// Steps begin where the points are now.
+  void keep() { start_ = draft_.points; }
+
+  /// Lowers the energy by at most so many steps.
+  void lower(int steps, const std::function<bool()>& must_stop);
+  /// Takes moved vertices to the closest points of a surface. Where triangles would fold over or become thin, vertices
+  /// go back to where they were at first.
+  void project(const ClosestPoints& surface);
+
+ private:
+  [[nodiscard]] Vec3 normal_of(std::size_t e, const IdVector<VertexId, WeightedPoint>& points) const {
+    const auto& [a, b, c] = draft_.triangles[e];
+    return surfaces::normal_of(points[a].position(), points[b].position(), points[c].position());
+  }
+
+  [[nodiscard]] bool has_kept_shape(std::size_t e) const;
+
+  Draft& draft_;
+  double gamma_;
+  IdVector<VertexId, WeightedPoint> first_, start_;
+  std::vector<Vec3> normals_;                         ///< Unit normals of the triangles at first
+  IdVector<VertexId, std::array<Vec3, 2>> tangents_;  ///< In units of the mean edge
+  IdVector<VertexId, double> areas_;                  ///< Square of that
+};
+
+}  // namespace temper::surfaces

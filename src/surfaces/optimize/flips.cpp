@@ -1,0 +1,83 @@
+#include "surfaces/optimize/flips.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "surfaces/mesh/surface_editor.hpp"
+#include "surfaces/optimize/draft.hpp"
+#include "topology/flip_inline.hpp"
+
+namespace temper::surfaces {
+namespace {
+
+constexpr int kPasses = 6;
+constexpr double kNegative = -1e-9;       // dual over length; ties stay
+constexpr double kLeastAgreement = 0.75;  // of the new normals with the mean of the old ones
+constexpr std::size_t kLeastDegree = 4;   // of the ends of an edge, which lose one
+
+std::size_t degree(const Mesh& mesh, VertexId v) {
+  std::size_t n = mesh.is_boundary(v) ? 1 : 0;
+  for ([[maybe_unused]] const HalfedgeId h : mesh.star(v)) ++n;
+  return n;
+}
+
+Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
+
+double dual_of(const SurfaceMesh& mesh, const inlined::Quad& q) {
+  return dual_over_length(mesh.point(q.a), mesh.point(q.b), mesh.point(q.c), mesh.point(q.d));
+}
+
+bool may_flip(const SurfaceMesh& mesh, HalfedgeId h, const FlipRules& rules) {
+  const Mesh& connectivity = mesh.connectivity();
+  const inlined::Quad q = inlined::quad(connectivity, h);
+  if (q.c == q.d || connectivity.find_halfedge(q.c, q.d).valid() || connectivity.find_halfedge(q.d, q.c).valid())
+    return false;
+  if (degree(connectivity, q.a) < kLeastDegree || degree(connectivity, q.b) < kLeastDegree) return false;
+  const Vec3 a = mesh.position(q.a), b = mesh.position(q.b), c = mesh.position(q.c), d = mesh.position(q.d);
+  const Vec3 mean = unit(unit(normal_of(a, b, c)) + unit(normal_of(b, a, d)));
+  for (const Vec3 normal : {normal_of(d, c, a), normal_of(c, d, b)}) {
+    if (!(dot(normal, mean) > kLeastAgreement * length(normal))) return false;
+  }
+  const double thinnest = std::min({kThin, width_of({a, b, c}), width_of({b, a, d})});
+  if (std::min(width_of({d, c, a}), width_of({c, d, b})) < thinnest) return false;
+  if (!(dual_of(mesh, {q.d, q.c, q.a, q.b}) > dual_of(mesh, q))) return false;
+  return distance_of(rules.input, d, c, a) <= rules.most_distance &&
+         distance_of(rules.input, c, d, b) <= rules.most_distance;
+}
+
+}  // namespace
+
+double distance_of(const ClosestPoints& surface, Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 places[] = {(1.0 / 3) * (a + b + c), 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)};
+  double most = 0;
+  for (const Vec3 p : places) most = std::max(most, surface.distance(p));
+  return most;
+}
+
+std::size_t flip_negative_duals(SurfaceMesh& mesh, const FlipRules& rules) {
+  Mesh& connectivity = SurfaceEditor(mesh).connectivity();
+  std::size_t flips = 0;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::vector<std::pair<double, HalfedgeId>> negative;
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (connectivity.is_unflippable(h) || !connectivity.is_edge_representative(h)) continue;
+      const double dual = dual_of(mesh, inlined::quad(connectivity, h));
+      if (dual < kNegative) negative.emplace_back(dual, h);
+    }
+    std::sort(negative.begin(), negative.end());
+    IdVector<TriangleId, std::uint8_t> touched(mesh.n_triangles(), 0);
+    const std::size_t before = flips;
+    for (const auto& [dual, h] : negative) {
+      const TriangleId s = Mesh::triangle(h), t = Mesh::triangle(connectivity.twin(h));
+      if (touched[s] != 0 || touched[t] != 0 || !may_flip(mesh, h, rules)) continue;
+      inlined::flip(connectivity, h);
+      touched[s] = touched[t] = 1;
+      ++flips;
+    }
+    if (flips == before) break;
+  }
+  return flips;
+}
+
+}  // namespace temper::surfaces

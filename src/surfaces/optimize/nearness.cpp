@@ -1,0 +1,59 @@
+#include "surfaces/optimize/nearness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/sort_unique.hpp"
+
+namespace temper::surfaces {
+namespace {
+
+/// Calls use(place, triangle) for the centers of triangles and the middles of edges.
+template <class Use>
+void for_each_sample(const SurfaceMesh& mesh, const Use& use) {
+  const Mesh& connectivity = mesh.connectivity();
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.points(t);
+    use((1.0 / 3) * (p.position() + q.position() + r.position()), t);
+  }
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!connectivity.is_edge_representative(h)) continue;
+    use(0.5 * (mesh.position(connectivity.origin(h)) + mesh.position(connectivity.target(h))), Mesh::triangle(h));
+  }
+}
+
+}  // namespace
+
+Nearness::Nearness(const SurfaceMesh& input, double most) : closest_(input), most_(most) {
+  for (const VertexId v : input.vertices()) samples_.push_back(input.position(v));
+  for_each_sample(input, [&](Vec3 p, TriangleId) { samples_.push_back(p); });
+}
+
+std::vector<VertexId> Nearness::too_far(const SurfaceMesh& mesh) const {
+  std::vector<VertexId> vertices;
+  const auto add = [&](TriangleId t) {
+    for (const VertexId v : mesh.connectivity().corners(t)) vertices.push_back(v);
+  };
+  const double most2 = most_ * most_;
+  for_each_sample(mesh, [&](Vec3 p, TriangleId t) {
+    if (closest_.find(p).squared_distance > most2) add(t);
+  });
+  const ClosestPoints now(mesh);
+  for (const Vec3 p : samples_) {
+    const ClosestPoint closest = now.find(p);
+    if (closest.squared_distance > most2) add(TriangleId(closest.triangle));
+  }
+  sort_unique(vertices);
+  return vertices;
+}
+
+double Nearness::distance(const SurfaceMesh& mesh) const {
+  double most2 = 0;
+  for (const VertexId v : mesh.vertices()) most2 = std::max(most2, closest_.find(mesh.position(v)).squared_distance);
+  for_each_sample(mesh, [&](Vec3 p, TriangleId) { most2 = std::max(most2, closest_.find(p).squared_distance); });
+  const ClosestPoints now(mesh);
+  for (const Vec3 p : samples_) most2 = std::max(most2, now.find(p).squared_distance);
+  return std::sqrt(most2);
+}
+
+}  // namespace temper::surfaces

@@ -1,0 +1,229 @@
+// optimize(): checks the options, marks creases, and compares two starts.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "base/text.hpp"
+#include "feasibility/demand.hpp"
+#include "geometry/bounding_boxes.hpp"
+#include "surfaces/mesh/surface_editor.hpp"
+#include "surfaces/optimize/flips.hpp"
+#include "surfaces/optimize/run.hpp"
+
+namespace temper::surfaces {
+namespace {
+
+constexpr int kRounds = 16, kSteps = 30;
+constexpr double kFirstGamma = 1, kLastGamma = 0.01, kGammaFactor = 0.72;
+constexpr double kSteepGamma = 0.4;  // factor from one descent of weights alone to the next
+// Linear programs are for the last bad triangles: around many of them their regions meet, and cost minutes.
+constexpr std::size_t kFewBad = 100;
+
+std::optional<InputError> expect_options(const OptimizeOptions& o) {
+  const auto error = [](const std::string& name, const std::string& expected, double found) {
+    return InputError{ErrorCode::invalid_option, "", name + ": expected " + expected + ", found " + to_text(found)};
+  };
+  if (!(o.margin > 0 && o.margin < 0.5)) return error("margin", "a number above 0 and below 0.5", o.margin);
+  if (!(o.surface_distance >= 0 && o.surface_distance < 1))
+    return error("surface_distance", "a number from 0 to below 1", o.surface_distance);
+  if (!(o.crease_angle_deg > 0 && o.crease_angle_deg <= 180))
+    return error("crease_angle_deg", "an angle above 0 and at most 180", o.crease_angle_deg);
+  return std::nullopt;
+}
+
+double diagonal_of(const SurfaceMesh& mesh) {
+  if (mesh.n_vertices() == 0) return 0;
+  BoundingBox box = {mesh.position(VertexId(0)), mesh.position(VertexId(0))};
+  for (const VertexId v : mesh.vertices()) box = united(box, {mesh.position(v), mesh.position(v)});
+  return length(box.high - box.low);
+}
+
+/// The halfedges of creases that are not constrained yet.
+std::vector<HalfedgeId> creases_of(const SurfaceMesh& mesh, double angle_deg) {
+  const Mesh& connectivity = mesh.connectivity();
+  const auto normal = [&](HalfedgeId h) {
+    const auto [a, b, c] = mesh.points(Mesh::triangle(h));
+    return normal_of(a.position(), b.position(), c.position());
+  };
+  std::vector<HalfedgeId> creases;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (connectivity.is_unflippable(h) || !connectivity.is_edge_representative(h)) continue;
+    const Vec3 left = normal(h), right = normal(connectivity.twin(h));
+    const double turn = std::atan2(length(cross(left, right)), dot(left, right)) * (180 / std::numbers::pi);
+    if (turn > angle_deg) creases.push_back(h);
+  }
+  return creases;
+}
+
+IdVector<VertexId, std::uint8_t> held_vertices(const SurfaceMesh& mesh) {
+  const Mesh& connectivity = mesh.connectivity();
+  IdVector<VertexId, std::uint8_t> holds(mesh.n_vertices(), 0);
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (connectivity.is_unflippable(h)) holds[connectivity.origin(h)] = holds[connectivity.target(h)] = 1;
+  }
+  for (const VertexId v : mesh.vertices()) {
+    if (connectivity.is_fixed(v)) holds[v] = 1;
+  }
+  return holds;
+}
+
+/// Takes vertices back to where they were, until no triangle folds over or becomes thin.
+void unfold(SurfaceMesh& mesh, const SurfaceMesh& before) {
+  const auto places = [](const SurfaceMesh& of, TriangleId t) {
+    const auto [a, b, c] = of.points(t);
+    return std::array{a.position(), b.position(), c.position()};
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const TriangleId t : mesh.triangles()) {
+      if (has_kept_shape(places(before, t), places(mesh, t))) continue;
+      for (const VertexId v : mesh.connectivity().corners(t)) {
+        changed = changed || mesh.position(v) != before.position(v);
+        mesh.set_position(v, before.position(v));
+      }
+    }
+  }
+}
+
+/// Takes vertices back to where they were, until all is near the input. False if that is not enough.
+bool take_back(SurfaceMesh& mesh, const SurfaceMesh& before, const Nearness& nearness) {
+  constexpr int kTries = 8;
+  for (int i = 0; i < kTries; ++i) {
+    const std::vector<VertexId> far = nearness.too_far(mesh);
+    if (far.empty()) return true;
+    for (const VertexId v : far) mesh.set_position(v, before.position(v));
+    unfold(mesh, before);
+  }
+  return false;
+}
+
+/// All of a mesh. Vertices that `holds` marks keep their places.
+Draft draft_of(const SurfaceMesh& mesh, const IdVector<VertexId, std::uint8_t>& holds, bool with_weights) {
+  Draft draft;
+  for (const VertexId v : mesh.vertices()) {
+    draft.points.push_back(mesh.point(v));
+    draft.moves.push_back(holds[v] != 0 ? 0 : 1);
+    draft.weighs.push_back(with_weights && !mesh.connectivity().is_frozen(v) ? 1 : 0);
+  }
+  for (const TriangleId t : mesh.triangles()) draft.triangles.push_back(mesh.connectivity().corners(t));
+  return draft;
+}
+
+}  // namespace
+
+void Run::move_all(State& state, bool with_weights) {
+  State best = state;
+  double gamma = kFirstGamma;
+  for (int round = 0; round < kRounds && best.bad > 0 && !must_stop(); ++round) {
+    const SurfaceMesh before = state.mesh;
+    Draft draft = draft_of(before, state.holds, with_weights);
+    DraftEnergy energy(draft, gamma);
+    energy.lower(kSteps, [this] { return must_stop(); });
+    energy.project(nearness.input());
+    for (const VertexId v : before.vertices()) {
+      state.mesh.set_position(v, draft.points[v].position());
+      state.mesh.set_weight(v, draft.points[v].w);
+    }
+    if (!take_back(state.mesh, before, nearness)) state.mesh = before;
+    if (options.may_flip) {
+      const SurfaceMesh unflipped = state.mesh;
+      const std::size_t n = flip_negative_duals(state.mesh, {nearness.input(), nearness.most()});
+      if (n > 0 && !nearness.too_far(state.mesh).empty()) {
+        state.mesh = unflipped;
+      } else {
+        flips += n;
+      }
+    }
+    ++rounds;
+    state.bad = bad(state.mesh);
+    if (state.bad <= best.bad) best = state;
+    gamma = std::max(kLastGamma, gamma * kGammaFactor);
+  }
+  state = std::move(best);
+}
+
+void Run::find_weights(State& state) const {
+  Draft draft = draft_of(state.mesh, IdVector<VertexId, std::uint8_t>(state.mesh.n_vertices(), 1), true);
+  for (double gamma = kFirstGamma; gamma > kLastGamma && state.bad > 0 && !must_stop(); gamma *= kSteepGamma) {
+    DraftEnergy(draft, gamma).lower(kSteps, [this] { return must_stop(); });
+    SurfaceMesh changed = state.mesh;
+    for (const VertexId v : changed.vertices()) changed.set_weight(v, draft.points[v].w);
+    take_if_better(state, std::move(changed));
+  }
+  if (state.bad == 0 || state.bad > kFewBad || must_stop()) return;
+  WeightOptions request;
+  request.goal = WeightGoal::elastic;
+  request.from_input = true;
+  request.margin = options.margin;
+  request.constraints = constraints_of(options.criterion);
+  request.must_stop = options.must_stop;
+  const auto report = surfaces::find_weights(state.mesh, solver, request);
+  if (!report) return;
+  SurfaceMesh changed = state.mesh;
+  for (const VertexId v : changed.vertices()) changed.set_weight(v, report->weights[v]);
+  take_if_better(state, std::move(changed));
+}
+
+void Run::take_if_better(State& state, SurfaceMesh changed) const {
+  const std::size_t left = bad(changed);
+  if (left >= state.bad) return;
+  state.mesh = std::move(changed);
+  state.bad = left;
+}
+
+Expected<OptimizeReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const OptimizeOptions& options) {
+  if (auto error = expect_options(options)) return *std::move(error);
+  OptimizeReport report;
+  report.before = quality(mesh);
+  report.diagonal = diagonal_of(mesh);
+  const Nearness nearness(mesh, options.surface_distance * report.diagonal);
+  Run run{options, nearness, solver};
+
+  State input{mesh, {}, {}, run.bad(mesh)};
+  Mesh& connectivity = SurfaceEditor(input.mesh).connectivity();
+  std::vector<std::array<VertexId, 2>> creases;
+  for (const HalfedgeId h : creases_of(mesh, options.crease_angle_deg)) {
+    creases.push_back({mesh.connectivity().origin(h), mesh.connectivity().target(h)});
+    connectivity.set_constrained(h, true);
+  }
+  report.crease_edges = creases.size();
+  input.holds = held_vertices(input.mesh);
+  for (const VertexId v : mesh.vertices()) input.origins.push_back(v);
+
+  State best = input;
+  run.find_weights(best);
+  for (const bool with_weights : {false, true}) {
+    if (best.bad == 0 || run.must_stop()) break;
+    State start = input;
+    run.move_all(start, with_weights);
+    run.find_weights(start);
+    if (start.bad < best.bad) best = std::move(start);
+  }
+  if (best.bad > 0 && options.may_insert) {
+    run.repair(best);
+    run.find_weights(best);
+  }
+  report.stopped = run.must_stop();
+
+  Mesh& result = SurfaceEditor(best.mesh).connectivity();
+  IdVector<VertexId, VertexId> numbers(mesh.n_vertices());
+  for (const VertexId v : best.mesh.vertices()) {
+    if (best.origins[v].valid()) numbers[best.origins[v]] = v;
+  }
+  for (const auto& [a, b] : creases) {
+    const HalfedgeId h = result.find_halfedge(numbers[a], numbers[b]);
+    result.set_constrained(h.valid() ? h : result.find_halfedge(numbers[b], numbers[a]), false);
+  }
+  mesh = std::move(best.mesh);
+  report.after = quality(mesh);
+  report.violations_before = violations(report.before, options.criterion);
+  report.violations_after = violations(report.after, options.criterion);
+  report.surface_distance = nearness.distance(mesh);
+  report.rounds = run.rounds, report.flips = run.flips, report.repairs = run.repairs;
+  const bool same_vertices = run.repairs == 0;
+  if (!same_vertices) report.vertices = best.origins;
+  return report;
+}
+
+}  // namespace temper::surfaces

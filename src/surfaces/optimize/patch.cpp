@@ -1,0 +1,294 @@
+#include "surfaces/optimize/patch.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "base/sort_unique.hpp"
+#include "surfaces/optimize/flips.hpp"
+#include "temper/topology.hpp"
+
+namespace temper::surfaces {
+namespace {
+
+constexpr double kGammas[] = {0.3, 0.1, 0.03, 0.01};
+constexpr int kStepsOfPatch = 25;
+constexpr double kLeastFacing = 0.5;  // least cosine between new normals and the mean of the old ones
+
+/// Arrays for SurfaceMesh::build.
+struct Arrays {
+  std::vector<Vec3> points;
+  std::vector<double> weights;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int32_t> regions, fixed;
+  std::vector<std::array<std::int32_t, 2>> constrained;
+
+  void add(const WeightedPoint& p) { points.push_back(p.position()), weights.push_back(p.w); }
+  [[nodiscard]] std::optional<SurfaceMesh> build() const {
+    SurfaceInput in;
+    in.points = points;
+    in.weights = weights;
+    in.triangles = triangles;
+    in.regions = regions;
+    in.fixed_vertices = fixed;
+    in.constrained_edges = constrained;
+    auto built = SurfaceMesh::build(in);
+    if (!built) return std::nullopt;
+    return std::move(built->mesh);
+  }
+};
+
+std::int32_t number(VertexId v) { return static_cast<std::int32_t>(v.index); }
+
+}  // namespace
+
+Patch::Patch(const State& state, TriangleId center, int rings) : mesh_(state.mesh) {
+  const Mesh& mesh = mesh_.connectivity();
+  const auto corners = mesh.corners(center);
+  std::vector<VertexId> vertices(corners.begin(), corners.end());
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<VertexId> inner = vertices;
+    for (const VertexId v : inner) {
+      for (const HalfedgeId h : mesh.star(v)) {
+        vertices.push_back(mesh.target(h));
+        vertices.push_back(mesh.opposite(h));
+      }
+    }
+    sort_unique(vertices);
+    if (ring + 1 < rings) continue;
+    for (const VertexId v : inner) {
+      for (const HalfedgeId h : mesh.star(v)) cells_.push_back(Mesh::triangle(h));
+    }
+  }
+  sort_unique(cells_);
+  const auto local = [&](VertexId v) {
+    return VertexId(static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin()));
+  };
+  center_ = {local(corners[0]), local(corners[1]), local(corners[2])};
+  global_ = vertices;
+  for (const TriangleId t : cells_) {
+    const auto [a, b, c] = mesh.corners(t);
+    draft_.triangles.push_back({local(a), local(b), local(c)});
+    regions_.push_back(mesh.region(t));
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(t, k);
+      const VertexId p = local(mesh.origin(h)), q = local(mesh.target(h));
+      if (mesh.is_constrained(h)) constrained_.push_back({std::min(p, q), std::max(p, q)});
+    }
+  }
+  sort_unique(constrained_);
+  for (const VertexId v : vertices) {
+    bool is_inside = true;
+    for (const HalfedgeId h : mesh.star(v))
+      is_inside = is_inside && std::binary_search(cells_.begin(), cells_.end(), Mesh::triangle(h));
+    draft_.points.push_back(mesh_.point(v));
+    draft_.moves.push_back(is_inside && state.holds[v] == 0 ? 1 : 0);
+    draft_.weighs.push_back(is_inside && !mesh.is_frozen(v) ? 1 : 0);
+  }
+}
+
+std::optional<Patch::Side> Patch::side(VertexId a, VertexId b) const {
+  for (std::size_t t = 0; t < draft_.triangles.size(); ++t) {
+    const Corners& c = draft_.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (c[k] == a && c[(k + 1) % 3] == b) return Side{t, c[(k + 2) % 3]};
+    }
+  }
+  return std::nullopt;
+}
+
+bool Patch::has_edge(VertexId a, VertexId b) const {
+  if (side(a, b) || side(b, a)) return true;
+  const VertexId p = global_[a.index], q = global_[b.index];
+  const Mesh& mesh = mesh_.connectivity();
+  return p.valid() && q.valid() && draft_.moves[a] == 0 && draft_.moves[b] == 0 &&
+         (mesh.find_halfedge(p, q).valid() || mesh.find_halfedge(q, p).valid());
+}
+
+bool Patch::is_locked(VertexId a, VertexId b) const {
+  return std::binary_search(constrained_.begin(), constrained_.end(), std::array{std::min(a, b), std::max(a, b)});
+}
+
+std::vector<VertexId> Patch::neighbors(VertexId v) const {
+  std::vector<VertexId> all;
+  for (const Corners& t : draft_.triangles) {
+    if (std::find(t.begin(), t.end(), v) == t.end()) continue;
+    for (const VertexId u : t) {
+      if (u != v) all.push_back(u);
+    }
+  }
+  sort_unique(all);
+  return all;
+}
+
+std::vector<Edit> Patch::edits() const {
+  std::vector<Edit> all = {{}};
+  for (const Edit::Kind kind : {Edit::Kind::flip, Edit::Kind::split}) {
+    for (std::size_t k = 0; k < 3; ++k) all.push_back({kind, center_[k], center_[(k + 1) % 3]});
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3})
+      all.push_back({Edit::Kind::collapse, center_[k], center_[other]});
+  }
+  for (const VertexId v : center_) {
+    for (const VertexId u : neighbors(v)) {
+      if (std::find(center_.begin(), center_.end(), u) != center_.end()) continue;
+      all.push_back({Edit::Kind::collapse, v, u});
+      all.push_back({Edit::Kind::flip, v, u});
+    }
+  }
+  return all;
+}
+
+bool Patch::make(const Edit& edit, const Nearness& nearness) {
+  switch (edit.kind) {
+    case Edit::Kind::none:
+      return true;
+    case Edit::Kind::flip:
+      return flip(edit.from, edit.to);
+    case Edit::Kind::split:
+      return split(edit.from, edit.to, nearness);
+    case Edit::Kind::collapse:
+      return collapse(edit.from, edit.to);
+  }
+  return false;
+}
+
+bool Patch::flip(VertexId a, VertexId b) {
+  const auto left = side(a, b), right = side(b, a);
+  if (!left || !right || is_locked(a, b)) return false;
+  const VertexId c = left->across, d = right->across;
+  if (c == d || has_edge(c, d)) return false;
+  Corners &s = draft_.triangles[left->triangle], &t = draft_.triangles[right->triangle];
+  const Vec3 n = normal(s), m = normal(t), mean = (1 / length(n)) * n + (1 / length(m)) * m;
+  const Corners one = {d, c, a}, other = {c, d, b};
+  for (const Corners& made : {one, other}) {
+    if (!(dot(normal(made), mean) > kLeastFacing * length(normal(made)) * length(mean))) return false;
+  }
+  s = one, t = other;
+  return true;
+}
+
+bool Patch::split(VertexId a, VertexId b, const Nearness& nearness) {
+  const auto left = side(a, b), right = side(b, a);
+  if (!left || !right || is_locked(a, b)) return false;
+  const VertexId c = left->across, d = right->across, m(global_.size());
+  const Vec3 at = nearness.input().find(0.5 * (place(a) + place(b))).at;
+  const double l2 = squared_length(place(b) - place(a));
+  draft_.points.push_back({at.x, at.y, at.z, split_weight(draft_.points[a].w, draft_.points[b].w, l2, 0.5)});
+  draft_.moves.push_back(1);
+  draft_.weighs.push_back(1);
+  global_.emplace_back();
+  draft_.triangles[left->triangle] = {a, m, c};
+  draft_.triangles[right->triangle] = {b, m, d};
+  draft_.triangles.push_back({m, b, c});
+  draft_.triangles.push_back({m, a, d});
+  regions_.push_back(regions_[left->triangle]);
+  regions_.push_back(regions_[right->triangle]);
+  return true;
+}
+
+bool Patch::collapse(VertexId a, VertexId b) {
+  const auto left = side(a, b), right = side(b, a);
+  if (!left || !right || draft_.moves[a] == 0 || is_locked(a, b)) return false;
+  const std::vector<VertexId> of_a = neighbors(a);
+  const auto is_common = [&](VertexId v) { return v != a && v != b && has_edge(v, b); };
+  if (std::count_if(of_a.begin(), of_a.end(), is_common) != 2) return false;
+  std::vector<Corners> triangles;
+  std::vector<std::int32_t> regions;
+  for (std::size_t t = 0; t < draft_.triangles.size(); ++t) {
+    if (t == left->triangle || t == right->triangle) continue;
+    Corners corners = draft_.triangles[t];
+    const Vec3 before = normal(corners);
+    std::replace(corners.begin(), corners.end(), a, b);
+    const Vec3 after = normal(corners);
+    if (!(dot(before, after) > kLeastFacing * length(before) * length(after))) return false;
+    triangles.push_back(corners);
+    regions.push_back(regions_[t]);
+  }
+  draft_.triangles = std::move(triangles);
+  regions_ = std::move(regions);
+  return true;
+}
+
+void Patch::descend(const Run& run) {
+  for (const double gamma : kGammas) {
+    DraftEnergy energy(draft_, gamma);
+    energy.lower(kStepsOfPatch, [&run] { return run.must_stop(); });
+    energy.project(run.nearness.input());
+  }
+}
+
+std::optional<std::size_t> Patch::bad(const Run& run) const {
+  Arrays arrays;
+  std::vector<std::int32_t> numbers(global_.size(), -1);
+  for (std::size_t t = 0; t < draft_.triangles.size(); ++t) {
+    const auto& [a, b, c] = draft_.triangles[t];
+    if (distance_of(run.nearness.input(), place(a), place(b), place(c)) > run.nearness.most()) return std::nullopt;
+    arrays.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId v = draft_.triangles[t][k];
+      std::int32_t& n = numbers[v.index];
+      if (n < 0) {
+        n = static_cast<std::int32_t>(arrays.points.size());
+        arrays.add(draft_.points[v]);
+      }
+      arrays.triangles.back()[k] = n;
+    }
+  }
+  arrays.regions = regions_;
+  const std::optional<SurfaceMesh> mesh = arrays.build();
+  if (!mesh) return std::nullopt;
+  return run.bad(*mesh);
+}
+
+std::optional<State> Patch::in(const State& state) const {
+  const Mesh& old = state.mesh.connectivity();
+  IdVector<VertexId, WeightedPoint> points;
+  for (const VertexId v : state.mesh.vertices()) points.push_back(state.mesh.point(v));
+  std::vector<VertexId> number_of_local;
+  std::size_t n = points.size();
+  for (std::size_t i = 0; i < global_.size(); ++i) {
+    const VertexId v = global_[i].valid() ? global_[i] : VertexId(n++);
+    if (!global_[i].valid()) points.push_back({});
+    points[v] = draft_.points[VertexId(i)];
+    number_of_local.push_back(v);
+  }
+  std::vector<Corners> triangles;
+  Arrays arrays;
+  for (const TriangleId t : state.mesh.triangles()) {
+    if (std::binary_search(cells_.begin(), cells_.end(), t)) continue;
+    triangles.push_back(old.corners(t));
+    arrays.regions.push_back(old.region(t));
+  }
+  for (std::size_t t = 0; t < draft_.triangles.size(); ++t) {
+    const auto& [a, b, c] = draft_.triangles[t];
+    triangles.push_back({number_of_local[a.index], number_of_local[b.index], number_of_local[c.index]});
+    arrays.regions.push_back(regions_[t]);
+  }
+  IdVector<VertexId, VertexId> kept(points.size());
+  for (const Corners& t : triangles) {
+    for (const VertexId v : t) kept[v] = v;
+  }
+  State next;
+  for (const VertexId v : IdRange<VertexId>(points.size())) {
+    if (!kept[v].valid()) continue;
+    kept[v] = VertexId(arrays.points.size());
+    arrays.add(points[v]);
+    const bool is_new = v.index >= old.n_vertices();
+    next.holds.push_back(is_new ? 0 : state.holds[v]);
+    next.origins.push_back(is_new ? VertexId() : state.origins[v]);
+    if (!is_new && old.is_fixed(v)) arrays.fixed.push_back(number(kept[v]));
+  }
+  for (const auto& [a, b, c] : triangles)
+    arrays.triangles.push_back({number(kept[a]), number(kept[b]), number(kept[c])});
+  for (const HalfedgeId h : old.halfedges()) {
+    if (old.is_constrained(h) && old.is_edge_representative(h))
+      arrays.constrained.push_back({number(kept[old.origin(h)]), number(kept[old.target(h)])});
+  }
+  std::optional<SurfaceMesh> mesh = arrays.build();
+  if (!mesh) return std::nullopt;
+  next.mesh = *std::move(mesh);
+  return next;
+}
+
+}  // namespace temper::surfaces

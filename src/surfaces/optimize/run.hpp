@@ -1,0 +1,48 @@
+// The steps of a run. Lengths are in the user's units.
+//
+//   rounds    descend, project, take back what is too far, flip; γ falls from round to round
+//   weights   a linear program for all weights
+//   repairs   copies of a few rings around bad triangles: descend again, flip, split or collapse an edge (repair.cpp)
+//
+// Two starts compete: moves alone, with weights at the end; and moves with weights.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "surfaces/optimize/draft.hpp"
+#include "surfaces/optimize/nearness.hpp"
+#include "temper/surfaces.hpp"
+
+namespace temper::surfaces {
+
+/// A mesh of a run with its counts.
+struct State {
+  SurfaceMesh mesh;
+  IdVector<VertexId, std::uint8_t> holds;  ///< Vertices that must stay at their places
+  IdVector<VertexId, VertexId> origins;    ///< Their numbers in the input
+  std::size_t bad = 0;                     ///< Number of cells at violations
+};
+
+struct Run {
+  const OptimizeOptions& options;
+  const Nearness& nearness;
+  LpSolver& solver;
+  std::size_t rounds = 0, flips = 0, repairs = 0, trials = 0;
+
+  [[nodiscard]] bool must_stop() const { return options.must_stop && options.must_stop(); }
+  [[nodiscard]] std::size_t bad(const SurfaceMesh& mesh) const {
+    return cells_at_violations(mesh, options.criterion).size();
+  }
+
+  /// Rounds that move all vertices, with or without their weights.
+  void move_all(State& state, bool with_weights);
+  /// Weights by descents, and for few bad cells by a linear program, if they leave fewer bad cells.
+  void find_weights(State& state) const;
+  void take_if_better(State& state, SurfaceMesh changed) const;
+  /// Edits next to bad triangles, as long as one helps.
+  void repair(State& state);
+};
+
+}  // namespace temper::surfaces

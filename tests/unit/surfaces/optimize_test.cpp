@@ -1,0 +1,320 @@
+// optimize() on surfaces: what it promises to keep, what it reaches, and its parts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "support/surface_meshes.hpp"
+#include "surfaces/optimize/barrier.hpp"
+#include "surfaces/optimize/closest_point.hpp"
+#include "surfaces/optimize/draft.hpp"
+#include "surfaces/optimize/flips.hpp"
+#include "temper/detail/lp.hpp"
+#include "temper/generate.hpp"
+
+namespace temper::surfaces {
+namespace {
+
+OptimizeReport optimized(SurfaceMesh& mesh, const OptimizeOptions& options = {}) {
+  const auto report = optimize(mesh, *clp_solver(), options);
+  EXPECT_TRUE(report) << report.error().what();
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+  return *report;
+}
+
+/// A torus whose points are shaken along the torus.
+SurfaceMesh shaken_torus(double shake, std::uint64_t seed, double unit = 1) {
+  Rng rng(seed);
+  constexpr int kAround = 24, kThrough = 12;
+  test::SurfaceArrays arrays = test::torus(kAround, kThrough);
+  for (std::size_t i = 0; i < arrays.points.size(); ++i) {
+    const auto turn = [&](std::size_t index, int n) {
+      return 2 * std::numbers::pi * (static_cast<double>(index) + rng.uniform(-shake, shake)) / n;
+    };
+    arrays.points[i] = unit * test::on_torus(turn(i / kThrough, kAround), turn(i % kThrough, kThrough));
+  }
+  return test::mesh_of(arrays);
+}
+
+/// Squares in the plane z = 0 with random diagonals; inner points are shaken.
+test::SurfaceArrays shaken_grid(int n, double shake, std::uint64_t seed) {
+  Rng rng(seed);
+  test::SurfaceArrays arrays;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const bool is_inside = i > 0 && i < n && j > 0 && j < n;
+      const auto shaken = [&](int x) { return x + (is_inside ? rng.uniform(-shake, shake) : 0); };
+      arrays.points.push_back({shaken(i), shaken(j), 0});
+      if (i == n || j == n) continue;
+      test::add_square(arrays.triangles, i * (n + 1) + j, n + 1, rng);
+    }
+  }
+  return arrays;
+}
+
+double brute_force_distance(const SurfaceMesh& mesh, Vec3 p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [a, b, c] = mesh.points(t);
+    least = std::min(least, length(p - closest_point({a.position(), b.position(), c.position()}, p)));
+  }
+  return least;
+}
+
+TEST(SurfaceBarrier, TheGradientIsThatOfDifferencesToOrderTwo) {
+  Rng rng(2);
+  for (int i = 0; i < 50; ++i) {
+    std::array<WeightedPoint, 3> points;
+    for (WeightedPoint& p : points)
+      p = {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-0.3, 0.3)};
+    const double gamma = rng.uniform(0.1, 1);
+    if (width_of({points[0].position(), points[1].position(), points[2].position()}) < 0.3) continue;
+    const BarrierValue e = barrier(points, gamma);
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (double WeightedPoint::*const x :
+           {&WeightedPoint::x, &WeightedPoint::y, &WeightedPoint::z, &WeightedPoint::w}) {
+        const double slope = x == &WeightedPoint::x   ? e.by_corner[k].x
+                             : x == &WeightedPoint::y ? e.by_corner[k].y
+                             : x == &WeightedPoint::z ? e.by_corner[k].z
+                                                      : e.by_weight[k];
+        const auto error = [&](double step) {
+          auto after = points, before = points;
+          after[k].*x += step, before[k].*x -= step;
+          return std::abs((barrier(after, gamma).value - barrier(before, gamma).value) / (2 * step) - slope);
+        };
+        EXPECT_LT(error(1e-4), 1e-4 * std::max(1.0, std::abs(slope)));
+        EXPECT_LT(error(1e-4), 0.02 * error(1e-3) + 1e-8 * std::max(1.0, std::abs(slope)));
+      }
+    }
+  }
+}
+
+TEST(SurfaceBarrier, IsTheLeastForEquilateralTrianglesAndHasNoUnit) {
+  const std::array<WeightedPoint, 3> best = {{{0, 0, 0, 0}, {1, 0, 0, 0}, {0.5, std::sqrt(0.75), 0, 0}}};
+  const BarrierValue e = barrier(best, 0.1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_LT(length(e.by_corner[k]), 1e-12);
+    EXPECT_NEAR(e.by_weight[k], 0, 1e-12);
+  }
+  std::array<WeightedPoint, 3> some = {{{0, 0, 0, 0.1}, {1, 0, 0.5, 0}, {0.3, 0.2, 1, 0.2}}}, larger = some;
+  for (WeightedPoint& p : larger) p = {8 * p.x, 8 * p.y, 8 * p.z, 64 * p.w};
+  EXPECT_EQ(barrier(some, 0.1).value, barrier(larger, 0.1).value);
+}
+
+TEST(SurfaceClosestPoint, IsTheBestOfAllTriangles) {
+  const SurfaceMesh mesh = shaken_torus(0.3, 1);
+  const ClosestPoints closest(mesh);
+  Rng rng(3);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p = {rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-1, 1)};
+    EXPECT_NEAR(closest.distance(p), brute_force_distance(mesh, p), 1e-14);
+  }
+  for (const VertexId v : mesh.vertices()) EXPECT_EQ(closest.distance(mesh.position(v)), 0);
+}
+
+TEST(SurfaceFlips, MakeAPlaneMeshRegularAndKeepACurvedOneWithoutDistance) {
+  // A grid has no thin triangles, which keep others from flips.
+  SurfaceMesh plane = test::mesh_of(shaken_grid(8, 0.2, 2));
+  const ClosestPoints of_plane(plane);
+  EXPECT_GT(quality(plane).non_regular_edges, 10U);
+  EXPECT_GT(flip_negative_duals(plane, {of_plane, 1e-12}), 10U);
+  EXPECT_LE(quality(plane).non_regular_edges, 1U);  // corners of the grid keep three edges
+  EXPECT_EQ(plane.validate(), std::nullopt);
+
+  SurfaceMesh torus = shaken_torus(0.4, 2);
+  const SurfaceMesh input = torus;
+  const ClosestPoints of_torus(input);
+  EXPECT_EQ(flip_negative_duals(torus, {of_torus, 0}), 0U);
+  EXPECT_EQ(torus, input);
+  EXPECT_GT(flip_negative_duals(torus, {of_torus, 0.1}), 0U);
+}
+
+TEST(SurfaceOptimize, AGoodMeshStaysBitForBit) {
+  SurfaceMesh mesh = test::mesh_of(test::icosphere(2));
+  const SurfaceMesh input = mesh;
+  const OptimizeReport report = optimized(mesh);
+  EXPECT_EQ(mesh, input);
+  EXPECT_EQ(report.rounds + report.flips + report.repairs, 0U);
+  EXPECT_LT(report.surface_distance, 1e-15);
+}
+
+TEST(SurfaceOptimize, ToriBecomeWellCenteredNearTheInput) {
+  for (const std::uint64_t seed : {1, 2}) {
+    SurfaceMesh mesh = shaken_torus(0.3, seed);
+    const SurfaceMesh input = mesh;
+    OptimizeOptions options;
+    options.surface_distance = 0.02;
+    const OptimizeReport report = optimized(mesh, options);
+    EXPECT_GT(report.violations_before, 100U);
+    EXPECT_EQ(report.violations_after, 0U);
+    EXPECT_EQ(quality(mesh).well_centered_fraction, 1);
+    // The distance of the report, by all triangles.
+    EXPECT_LE(report.surface_distance, 0.02 * report.diagonal);
+    double most = 0;
+    const auto compare = [&](const SurfaceMesh& from, const SurfaceMesh& to) {
+      for (const TriangleId t : from.triangles()) {
+        const auto [a, b, c] = from.points(t);
+        const Vec3 center = (1.0 / 3) * (a.position() + b.position() + c.position());
+        for (const Vec3 p : {a.position(), center, 0.5 * (a.position() + b.position()),
+                             0.5 * (b.position() + c.position()), 0.5 * (c.position() + a.position())})
+          most = std::max(most, brute_force_distance(to, p));
+      }
+    };
+    compare(mesh, input), compare(input, mesh);
+    EXPECT_NEAR(report.surface_distance, most, 1e-12);
+    EXPECT_GT(most, 0);
+    // Closed, and of the same genus.
+    EXPECT_EQ(mesh.n_vertices() + mesh.n_triangles(), mesh.connectivity().n_edges());
+  }
+}
+
+TEST(SurfaceOptimize, AnotherUnitOfLengthChangesNothingElse) {
+  SurfaceMesh one = shaken_torus(0.3, 5), other = shaken_torus(0.3, 5, 8);
+  OptimizeOptions options;
+  options.surface_distance = 0.02;
+  const OptimizeReport a = optimized(one, options), b = optimized(other, options);
+  EXPECT_EQ(a.violations_after, b.violations_after);
+  EXPECT_EQ(a.flips, b.flips);
+  ASSERT_EQ(one.n_vertices(), other.n_vertices());
+  for (const VertexId v : one.vertices()) ASSERT_EQ(8.0 * one.position(v), other.position(v));
+}
+
+TEST(SurfaceOptimize, BoundaryFixedVerticesAndConstrainedEdgesStayInThePlane) {
+  const Mesh plane = *random_mesh({.vertices = 150, .seed = 8});
+  test::SurfaceArrays arrays = test::lifted(plane);
+  const auto corners = plane.corners(TriangleId(40));
+  arrays.constrained = {{static_cast<std::int32_t>(corners[0].index), static_cast<std::int32_t>(corners[1].index)}};
+  SurfaceInput in = arrays.input();
+  const std::vector<std::int32_t> fixed = {30, 31};
+  in.fixed_vertices = fixed;
+  SurfaceMesh mesh = SurfaceMesh::build(in)->mesh;
+  const SurfaceMesh input = mesh;
+  const OptimizeReport report = optimized(mesh);
+  EXPECT_LT(report.violations_after, report.violations_before / 2);
+  EXPECT_LT(report.surface_distance, 1e-12);
+  const auto new_number = [&](VertexId v) {
+    if (report.vertices.empty()) return v;
+    const auto at = std::find(report.vertices.begin(), report.vertices.end(), v);
+    return VertexId(static_cast<std::size_t>(at - report.vertices.begin()));
+  };
+  for (const VertexId v : mesh.vertices()) EXPECT_EQ(mesh.position(v).z, 0);
+  std::size_t boundary = 0;
+  for (const VertexId v : input.vertices()) {
+    const bool stays = input.connectivity().is_boundary(v) || input.connectivity().is_fixed(v);
+    if (!stays) continue;
+    ++boundary;
+    ASSERT_LT(new_number(v).index, mesh.n_vertices());
+    EXPECT_EQ(mesh.position(new_number(v)), input.position(v));
+    EXPECT_EQ(mesh.connectivity().is_fixed(new_number(v)), input.connectivity().is_fixed(v));
+  }
+  EXPECT_GT(boundary, 10U);
+  const Mesh& after = mesh.connectivity();
+  const VertexId a = new_number(corners[0]), b = new_number(corners[1]);
+  const HalfedgeId h = after.find_halfedge(a, b), g = after.find_halfedge(b, a);
+  ASSERT_TRUE(h.valid() || g.valid());
+  EXPECT_TRUE(after.is_constrained(h.valid() ? h : g));
+  std::size_t constrained = 0;
+  for (const HalfedgeId e : mesh.halfedges()) constrained += after.is_constrained(e) ? 1 : 0;
+  EXPECT_EQ(constrained, 2U);
+}
+
+/// The surface of a cube of n³ cells. Points inside of its faces are shaken.
+test::SurfaceArrays shaken_cube(int n, double shake, std::uint64_t seed) {
+  Rng rng(seed);
+  test::SurfaceArrays arrays;
+  std::map<std::array<int, 3>, std::int32_t> numbers;
+  const auto point = [&](std::array<int, 3> at) {
+    const auto [found, is_new] = numbers.try_emplace(at, static_cast<std::int32_t>(arrays.points.size()));
+    if (is_new) {
+      std::array<double, 3> x;
+      const auto is_outer = [n](int i) { return i == 0 || i == n; };
+      const bool is_inside = is_outer(at[0]) + is_outer(at[1]) + is_outer(at[2]) == 1;
+      for (std::size_t k = 0; k < 3; ++k)
+        x[k] = at[k] + (is_inside && !is_outer(at[k]) ? rng.uniform(-shake, shake) : 0);
+      arrays.points.push_back({x[0], x[1], x[2]});
+    }
+    return found->second;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const int side : {0, n}) {
+      for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+          const auto corner = [&](int u, int v) {
+            std::array<int, 3> at = {};
+            at[axis] = side, at[(axis + 1) % 3] = i + u, at[(axis + 2) % 3] = j + v;
+            return point(at);
+          };
+          const std::int32_t a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
+          arrays.triangles.insert(arrays.triangles.end(), {{a, b, c}, {a, c, d}});
+        }
+      }
+    }
+  }
+  return arrays;
+}
+
+TEST(SurfaceOptimize, CreasesStay) {
+  SurfaceMesh mesh = test::mesh_of(shaken_cube(5, 0.25, 3));
+  const SurfaceMesh input = mesh;
+  const OptimizeReport report = optimized(mesh);
+  EXPECT_EQ(report.crease_edges, 60U);
+  EXPECT_LT(report.violations_after, report.violations_before / 3);
+  EXPECT_LT(report.surface_distance, 1e-12);
+  std::size_t creases = 0;
+  for (const HalfedgeId h : mesh.halfedges()) EXPECT_FALSE(mesh.connectivity().is_constrained(h));
+  for (const VertexId v : mesh.vertices()) {
+    const VertexId old = report.vertices.empty() ? v : report.vertices[v];
+    const auto is_outer = [](double x) { return std::abs(x) < 1e-9 || std::abs(x - 5) < 1e-9; };
+    const Vec3 p = mesh.position(v);
+    EXPECT_TRUE(is_outer(p.x) || is_outer(p.y) || is_outer(p.z));
+    if (!old.valid()) continue;
+    const Vec3 q = input.position(old);
+    if (is_outer(q.x) + is_outer(q.y) + is_outer(q.z) < 2) continue;
+    EXPECT_EQ(p, q);
+    ++creases;
+  }
+  EXPECT_EQ(creases, 56U);  // 8 corners and 4 points on each of 12 edges
+}
+
+TEST(SurfaceOptimize, TargetsOfDualsAreMet) {
+  for (const Criterion criterion : {Criterion::coefficients, Criterion::distances}) {
+    SurfaceMesh mesh = shaken_torus(0.35, 4);
+    OptimizeOptions options;
+    options.criterion = criterion;
+    options.surface_distance = 0.02;
+    const OptimizeReport report = optimized(mesh, options);
+    EXPECT_GT(report.violations_before, 0U);
+    EXPECT_EQ(report.violations_after, 0U);
+    EXPECT_TRUE(meets(mesh, criterion));
+  }
+}
+
+TEST(SurfaceOptimize, AStopLeavesTheMeshAsItIsAndSaysSo) {
+  SurfaceMesh mesh = shaken_torus(0.3, 1);
+  const SurfaceMesh input = mesh;
+  OptimizeOptions options;
+  options.must_stop = [] { return true; };
+  EXPECT_TRUE(optimized(mesh, options).stopped);
+  EXPECT_EQ(mesh, input);
+}
+
+TEST(SurfaceOptimize, OptionsOutOfRangeAreErrors) {
+  SurfaceMesh mesh = test::mesh_of(test::icosphere(0));
+  const auto code = [&](const OptimizeOptions& options) {
+    const auto report = optimize(mesh, *clp_solver(), options);
+    EXPECT_FALSE(report);
+    return report.error().code;
+  };
+  OptimizeOptions options;
+  options.margin = 0.5;
+  EXPECT_EQ(code(options), ErrorCode::invalid_option);
+  options = {};
+  options.surface_distance = -1;
+  EXPECT_EQ(code(options), ErrorCode::invalid_option);
+  options = {};
+  options.crease_angle_deg = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(code(options), ErrorCode::invalid_option);
+}
+
+}  // namespace
+}  // namespace temper::surfaces
