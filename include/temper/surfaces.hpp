@@ -184,7 +184,7 @@ struct BuiltSurface {
 
 // --- optimization ---------------------------------------------------------------------------------------------------
 
-struct OptimizeOptions {
+struct SurfaceOptions {
   Criterion criterion = Criterion::well_centered;  ///< What the mesh must meet: the run ends when it does
   double margin = 0.01;                            ///< Margin t of the final weights, in (0, 1/2)
   /// Largest distance between input and result, in parts of the diagonal of the bounding box.
@@ -196,7 +196,7 @@ struct OptimizeOptions {
   std::function<bool()> must_stop = {};  ///< If it says yes, the run ends with the best mesh so far
 };
 
-struct OptimizeReport {
+struct SurfaceReport {
   Quality before, after;
   std::size_t violations_before = 0, violations_after = 0;  ///< Numbers of violations of the criterion
   /// Largest distance between input and result, at vertices, centers of triangles and middles of edges, measured both
@@ -215,7 +215,6 @@ struct OptimizeReport {
 /// Improves a mesh in place until it meets the criterion. Vertices move in their tangent planes and come back to the
 /// input surface. Edges flip in space, and weights follow by linear programs. Vertices on the boundary, on constrained
 /// edges and on creases stay, and so do fixed ones. Errors: an option out of range.
-[[nodiscard]] Expected<OptimizeReport> optimize(SurfaceMesh& mesh, LpSolver& solver,
-                                                const OptimizeOptions& options = {});
+[[nodiscard]] Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options = {});
 
 }  // namespace temper::surfaces

@@ -20,7 +20,7 @@ constexpr double kSteepGamma = 0.4;  // factor from one descent of weights alone
 // Linear programs are for the last bad triangles: around many of them their regions meet, and cost minutes.
 constexpr std::size_t kFewBad = 100;
 
-std::optional<InputError> expect_options(const OptimizeOptions& o) {
+std::optional<InputError> expect_options(const SurfaceOptions& o) {
   const auto error = [](const std::string& name, const std::string& expected, double found) {
     return InputError{ErrorCode::invalid_option, "", name + ": expected " + expected + ", found " + to_text(found)};
   };
@@ -172,9 +172,9 @@ void Run::take_if_better(State& state, SurfaceMesh changed) const {
   state.bad = left;
 }
 
-Expected<OptimizeReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const OptimizeOptions& options) {
+Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options) {
   if (auto error = expect_options(options)) return *std::move(error);
-  OptimizeReport report;
+  SurfaceReport report;
   report.before = quality(mesh);
   report.diagonal = diagonal_of(mesh);
   const Nearness nearness(mesh, options.surface_distance * report.diagonal);

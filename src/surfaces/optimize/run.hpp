@@ -26,7 +26,7 @@ struct State {
 };
 
 struct Run {
-  const OptimizeOptions& options;
+  const SurfaceOptions& options;
   const Nearness& nearness;
   LpSolver& solver;
   std::size_t rounds = 0, flips = 0, repairs = 0, trials = 0;

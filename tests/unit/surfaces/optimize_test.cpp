@@ -15,7 +15,7 @@
 namespace temper::surfaces {
 namespace {
 
-OptimizeReport optimized(SurfaceMesh& mesh, const OptimizeOptions& options = {}) {
+SurfaceReport optimized(SurfaceMesh& mesh, const SurfaceOptions& options = {}) {
   const auto report = optimize(mesh, *clp_solver(), options);
   EXPECT_TRUE(report) << report.error().what();
   EXPECT_EQ(mesh.validate(), std::nullopt);
@@ -132,7 +132,7 @@ TEST(SurfaceFlips, MakeAPlaneMeshRegularAndKeepACurvedOneWithoutDistance) {
 TEST(SurfaceOptimize, AGoodMeshStaysBitForBit) {
   SurfaceMesh mesh = test::mesh_of(test::icosphere(2));
   const SurfaceMesh input = mesh;
-  const OptimizeReport report = optimized(mesh);
+  const SurfaceReport report = optimized(mesh);
   EXPECT_EQ(mesh, input);
   EXPECT_EQ(report.rounds + report.flips + report.repairs, 0U);
   EXPECT_LT(report.surface_distance, 1e-15);
@@ -142,9 +142,9 @@ TEST(SurfaceOptimize, ToriBecomeWellCenteredNearTheInput) {
   for (const std::uint64_t seed : {1, 2}) {
     SurfaceMesh mesh = shaken_torus(0.3, seed);
     const SurfaceMesh input = mesh;
-    OptimizeOptions options;
+    SurfaceOptions options;
     options.surface_distance = 0.02;
-    const OptimizeReport report = optimized(mesh, options);
+    const SurfaceReport report = optimized(mesh, options);
     EXPECT_GT(report.violations_before, 100U);
     EXPECT_EQ(report.violations_after, 0U);
     EXPECT_EQ(quality(mesh).well_centered_fraction, 1);
@@ -170,9 +170,9 @@ TEST(SurfaceOptimize, ToriBecomeWellCenteredNearTheInput) {
 
 TEST(SurfaceOptimize, AnotherUnitOfLengthChangesNothingElse) {
   SurfaceMesh one = shaken_torus(0.3, 5), other = shaken_torus(0.3, 5, 8);
-  OptimizeOptions options;
+  SurfaceOptions options;
   options.surface_distance = 0.02;
-  const OptimizeReport a = optimized(one, options), b = optimized(other, options);
+  const SurfaceReport a = optimized(one, options), b = optimized(other, options);
   EXPECT_EQ(a.violations_after, b.violations_after);
   EXPECT_EQ(a.flips, b.flips);
   ASSERT_EQ(one.n_vertices(), other.n_vertices());
@@ -189,7 +189,7 @@ TEST(SurfaceOptimize, BoundaryFixedVerticesAndConstrainedEdgesStayInThePlane) {
   in.fixed_vertices = fixed;
   SurfaceMesh mesh = SurfaceMesh::build(in)->mesh;
   const SurfaceMesh input = mesh;
-  const OptimizeReport report = optimized(mesh);
+  const SurfaceReport report = optimized(mesh);
   EXPECT_LT(report.violations_after, report.violations_before / 2);
   EXPECT_LT(report.surface_distance, 1e-12);
   const auto new_number = [&](VertexId v) {
@@ -256,7 +256,7 @@ test::SurfaceArrays shaken_cube(int n, double shake, std::uint64_t seed) {
 TEST(SurfaceOptimize, CreasesStay) {
   SurfaceMesh mesh = test::mesh_of(shaken_cube(5, 0.25, 3));
   const SurfaceMesh input = mesh;
-  const OptimizeReport report = optimized(mesh);
+  const SurfaceReport report = optimized(mesh);
   EXPECT_EQ(report.crease_edges, 60U);
   EXPECT_LT(report.violations_after, report.violations_before / 3);
   EXPECT_LT(report.surface_distance, 1e-12);
@@ -279,10 +279,10 @@ TEST(SurfaceOptimize, CreasesStay) {
 TEST(SurfaceOptimize, TargetsOfDualsAreMet) {
   for (const Criterion criterion : {Criterion::coefficients, Criterion::distances}) {
     SurfaceMesh mesh = shaken_torus(0.35, 4);
-    OptimizeOptions options;
+    SurfaceOptions options;
     options.criterion = criterion;
     options.surface_distance = 0.02;
-    const OptimizeReport report = optimized(mesh, options);
+    const SurfaceReport report = optimized(mesh, options);
     EXPECT_GT(report.violations_before, 0U);
     EXPECT_EQ(report.violations_after, 0U);
     EXPECT_TRUE(meets(mesh, criterion));
@@ -292,7 +292,7 @@ TEST(SurfaceOptimize, TargetsOfDualsAreMet) {
 TEST(SurfaceOptimize, AStopLeavesTheMeshAsItIsAndSaysSo) {
   SurfaceMesh mesh = shaken_torus(0.3, 1);
   const SurfaceMesh input = mesh;
-  OptimizeOptions options;
+  SurfaceOptions options;
   options.must_stop = [] { return true; };
   EXPECT_TRUE(optimized(mesh, options).stopped);
   EXPECT_EQ(mesh, input);
@@ -300,12 +300,12 @@ TEST(SurfaceOptimize, AStopLeavesTheMeshAsItIsAndSaysSo) {
 
 TEST(SurfaceOptimize, OptionsOutOfRangeAreErrors) {
   SurfaceMesh mesh = test::mesh_of(test::icosphere(0));
-  const auto code = [&](const OptimizeOptions& options) {
+  const auto code = [&](const SurfaceOptions& options) {
     const auto report = optimize(mesh, *clp_solver(), options);
     EXPECT_FALSE(report);
     return report.error().code;
   };
-  OptimizeOptions options;
+  SurfaceOptions options;
   options.margin = 0.5;
   EXPECT_EQ(code(options), ErrorCode::invalid_option);
   options = {};
