@@ -34,6 +34,7 @@ std::vector<Item> joined(const std::vector<Item>& items, const CellOf& cell_of, 
 
 std::vector<FoundOverlap> joined_overlaps(std::size_t n_cells, std::vector<FoundInBlock>& blocks) {
   std::vector<std::vector<FoundOverlap>*> of_blocks;
+  of_blocks.reserve(blocks.size());
   for (FoundInBlock& block : blocks) of_blocks.push_back(&block.overlaps);
   const auto cell_of = [](const FoundOverlap& found) { return found.now; };
   return joined(
@@ -46,6 +47,7 @@ std::vector<FoundOverlap> joined_overlaps(std::size_t n_cells, std::vector<Found
 
 std::vector<CellPart> joined_parts(std::size_t n_cells, std::vector<FoundInBlock>& blocks) {
   std::vector<std::vector<CellPart>*> of_blocks;
+  of_blocks.reserve(blocks.size());
   for (FoundInBlock& block : blocks) of_blocks.push_back(&block.parts);
   const auto cell_of = [](const CellPart& part) { return part.cell; };
   return joined(

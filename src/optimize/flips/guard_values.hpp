@@ -28,20 +28,20 @@ struct GuardValues {
     centroid,       ///< −distance of a vertex from the centroid of its cell, over local size
   };
   static constexpr std::size_t kMeasures = 15;
-  std::array<double, kMeasures> value;
+  /// Indexed by Measure. Of the last one, which fills a register of lanes, nothing is known.
+  alignas(64) std::array<double, kMeasures + 1> value;
 
   GuardValues() { value.fill(std::numeric_limits<double>::infinity()); }
   /// Takes the worse of the two, measure by measure.
   void take(const GuardValues& other) {
-    for (std::size_t i = 0; i < kMeasures; ++i) value[i] = std::min(value[i], other.value[i]);
+    for (std::size_t i = 0; i < value.size(); ++i) value[i] = other.value[i] < value[i] ? other.value[i] : value[i];
   }
   /// Says whether no measure is worse than before and beyond the limit. Values that are infinite before hold only
   /// within the limits.
   [[nodiscard]] bool hold(const GuardValues& before, const GuardValues& limits) const {
-    for (std::size_t i = 0; i < kMeasures; ++i) {
-      if (value[i] < before.value[i] && value[i] < limits.value[i]) return false;
-    }
-    return true;
+    bool all = true;
+    for (std::size_t i = 0; i < value.size(); ++i) all &= value[i] >= before.value[i] || value[i] >= limits.value[i];
+    return all;
   }
   /// Says whether no measure is beyond the limit.
   [[nodiscard]] bool are_within(const GuardValues& limits) const { return hold(GuardValues(), limits); }

@@ -50,8 +50,8 @@ class Comparison {
 static MeshDifference<TriangleId> difference(const Mesh& former, const Mesh& mesh,
                                              IdVector<VertexId, VertexId> numbers) {
   MeshDifference<TriangleId> result;
-  result.vertices = numbers;
-  const Comparison compared(former, mesh, numbers);
+  result.vertices = std::move(numbers);
+  const Comparison compared(former, mesh, result.vertices);
   for (const VertexId v : mesh.vertices()) {
     if (compared.is_moved(v)) result.moved.push_back(v);
     if (compared.is_weighed(v)) result.weighed.push_back(v);

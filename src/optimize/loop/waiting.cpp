@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "base/sort_unique.hpp"
 #include "base/text.hpp"
@@ -41,7 +42,7 @@ bool is_upright(const Mesh& mesh, VertexId v) {
 
 class Changing {
  public:
-  Changing(const Mesh& mesh, const InputNames* names) : mesh_(mesh), names_(names != nullptr ? *names : from_0_) {}
+  Changing(Mesh mesh, const InputNames* names) : mesh_(std::move(mesh)), names_(names != nullptr ? *names : from_0_) {}
 
   std::optional<InputError> make(const WaitingChanges& waiting) {
     if (auto error = check(waiting)) return error;

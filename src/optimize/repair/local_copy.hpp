@@ -78,8 +78,9 @@ class LocalCopy {
 
  private:
   // γ/ℓ of the first sweep, its factor from sweep to sweep, and its least value; and enough sweeps for all of them.
+  // With a guard, whose sweeps are slow, those at the floor change little.
   static constexpr double kFirstGamma = 0.5, kGammaFactor = 0.7, kLeastGamma = 0.003;
-  static constexpr int kMostSweeps = 25;
+  static constexpr int kMostSweeps = 25, kMostGuardedSweeps = 18;
 
   [[nodiscard]] WeightedPoint place_on_line(HalfedgeId h, double part) const;
 
@@ -103,7 +104,8 @@ class LocalCopy {
 template <class Ends>
 void LocalCopy::sweep(const Ends& ends) {
   double gamma = kFirstGamma;
-  for (int i = 0; i < kMostSweeps; ++i) {
+  const int most = settings_.guard == nullptr ? kMostSweeps : kMostGuardedSweeps;
+  for (int i = 0; i < most; ++i) {
     state_.model.gamma = {gamma, LengthScale::relative};
     step_.begin_sweep(i, settings_.options.unknowns);
     for (const VertexId v : work_.mesh.vertices()) {

@@ -278,7 +278,8 @@ Expected<MetricMesh> mapped(const TetMesh& mesh, const Metrics& metrics, std::sp
   }
   if (pieces.is_cut() && !corner_weights.empty()) {
     for (const TetId t : there.tetrahedra()) {
-      for (std::size_t k = 0; k < 4; ++k) there.set_weight(there.corners(t)[k], corner_weights[4 * t.index + k]);
+      for (std::size_t k = 0; k < 4; ++k)
+        there.set_weight(there.corners(t)[k], corner_weights[std::size_t{4} * t.index + k]);
     }
   }
   if (const auto upright = expect_upright(there, names); !upright) return upright.error();

@@ -39,10 +39,10 @@ std::uint32_t spread_bits(std::uint32_t x) {
 
 /// The tetrahedra of a mesh along a curve, so that blocks are compact.
 std::vector<TetId> along_curve(const TetMesh& mesh) {
-  const double kCells = 1023;
+  static constexpr double kMost = 1023;  // of ten bits
   const Box3 box = bounding_box(mesh);
-  const auto cell = [kCells](double x, double low, double high) {
-    return static_cast<std::uint32_t>(high > low ? std::clamp(kCells * (x - low) / (high - low), 0.0, kCells) : 0);
+  const auto cell = [](double x, double low, double high) {
+    return static_cast<std::uint32_t>(high > low ? std::clamp(kMost * (x - low) / (high - low), 0.0, kMost) : 0);
   };
   std::vector<std::pair<std::uint32_t, TetId>> keyed;
   for (const TetId t : mesh.tetrahedra()) {
@@ -54,6 +54,7 @@ std::vector<TetId> along_curve(const TetMesh& mesh) {
   }
   std::sort(keyed.begin(), keyed.end());
   std::vector<TetId> order;
+  order.reserve(keyed.size());
   for (const auto& [key, t] : keyed) order.push_back(t);
   return order;
 }
