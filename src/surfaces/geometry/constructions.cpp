@@ -40,8 +40,8 @@ double dual_over_length(const WeightedPoint& p, const WeightedPoint& q, const We
   const double l2 = squared_length(q.position() - p.position());
   double sum = left + right;
   if (!(std::abs(sum) > kCanceled * (std::abs(left) + std::abs(right)))) {
-    // (x² − y²)/(x + y) with the exact difference of squares, x = |left| and y = |right|. In units of the edge the
-    // products of twelve lengths do not overflow.
+    // (x² − y²)/(x + y) with the exact difference of squares, x = |left| and y = |right|; the sign follows below. In
+    // units of the edge the products of twelve lengths do not overflow.
     const double unit = std::ldexp(1.0, std::ilogb(l2) / 2);
     const auto scaled = [unit](const WeightedPoint& v) {
       return WeightedPoint{v.x / unit, v.y / unit, v.z / unit, v.w / unit / unit};
@@ -52,7 +52,6 @@ double dual_over_length(const WeightedPoint& p, const WeightedPoint& q, const We
     };
     const double squares = difference_of_squares<exact::Number>(a, b, c, d).approximation() / area(c) / area(d);
     sum = squares * unit * unit / ((std::abs(left) + std::abs(right)) / unit / unit);
-    if (left < 0) sum = -sum;
   }
   return with_sign(0.5 * sum / l2, dual_length_sign(p, q, r, s));
 }

@@ -78,6 +78,26 @@ TEST(SurfaceGeometry, SignsInThePlaneAreThePlanesEvenInTheLastBit) {
   }
 }
 
+TEST(SurfaceGeometry, ATriangleOfThePlaneIsWellCenteredAsThere) {
+  Rng rng(11);
+  std::size_t good = 0, only_not_crossed = 0;
+  for (int i = 0; i < 3000; ++i) {
+    // Weights for an orthocenter in the triangle, which may be obtuse.
+    std::array<Vec2, 3> at;
+    for (Vec2& p : at) p = {rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    if (orient2d(at[0], at[1], at[2]) != Sign::positive) std::swap(at[1], at[2]);
+    const double a = rng.uniform(0.01, 1), b = rng.uniform(0.01, 1), c = rng.uniform(0.01, 1);
+    const Vec2 o = (1 / (a + b + c)) * (a * at[0] + b * at[1] + c * at[2]);
+    const auto flat = [&](std::size_t k) { return temper::WeightedPoint{at[k].x, at[k].y, squared_length(o - at[k])}; };
+    const auto lifted = [&](std::size_t k) { return WeightedPoint{at[k].x, at[k].y, 0, squared_length(o - at[k])}; };
+    const bool there = temper::is_well_centered(flat(0), flat(1), flat(2));
+    ASSERT_EQ(is_well_centered(lifted(0), lifted(1), lifted(2)), there);
+    ++(there ? good : only_not_crossed);
+  }
+  EXPECT_GT(good, 500U);
+  EXPECT_GT(only_not_crossed, 500U);
+}
+
 TEST(SurfaceGeometry, SignsDoNotOverflowOrUnderflow) {
   // A right-angled isosceles triangle, and one a little sharper.
   for (const double unit : {0x1p-190, 1.0, 0x1p190}) {

@@ -42,7 +42,8 @@ SurfaceMesh pinwheel(double turn, double height) {
   test::SurfaceArrays arrays;
   for (int k = 0; k < 6; ++k) {
     const double angle = 2 * std::numbers::pi / 3 * k + (k < 3 ? 0 : turn), away = k < 3 ? 4 : 1;
-    arrays.points.push_back({away * std::cos(angle), away * std::sin(angle), k < 3 ? 0 : height});
+    const double x = away * std::cos(angle), y = away * std::sin(angle);
+    arrays.points.push_back({x + 0.3 * y, y, k < 3 ? 0 : height});  // sheared, so that its triangles differ
   }
   arrays.triangles = {{3, 4, 5}};
   for (int k = 0; k < 3; ++k) {
@@ -179,6 +180,26 @@ TEST(SurfaceWeights, EveryVerdictHasAProof) {
   }
   EXPECT_GE(verdicts[Feasibility::feasible], 8);
   EXPECT_GE(verdicts[Feasibility::infeasible], 14);
+}
+
+TEST(SurfaceWeights, ACertificateRefutesAMarginAboveTheBestOneOnly) {
+  const SurfaceMesh mesh = rough_sphere(0.35, 3);
+  for (const Constraints constraints : {Constraints::well_centered, Constraints::regular}) {
+    WeightOptions options;
+    options.goal = WeightGoal::margin;
+    options.constraints = constraints;
+    const double best = weights_of(mesh, options).margin;
+    ASSERT_GT(best, 0.01);
+    options.goal = WeightGoal::change;
+    options.margin = best + 0.02;
+    Certificate certificate = weights_of(mesh, options).certificate;
+    EXPECT_EQ(certificate.margin, options.margin);
+    EXPECT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves) << name(constraints);
+    certificate.margin = best + 1e-4;
+    EXPECT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves) << name(constraints);
+    certificate.margin = best - 1e-4;
+    EXPECT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves_nothing) << name(constraints);
+  }
 }
 
 TEST(SurfaceWeights, DualLengthsOfAPinwheelHaveABestMarginOfAnySign) {
