@@ -9,6 +9,7 @@
 #include "surfaces/optimize/closest_point.hpp"
 #include "surfaces/optimize/draft.hpp"
 #include "surfaces/optimize/flips.hpp"
+#include "surfaces/optimize/patch.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/generate.hpp"
 
@@ -99,6 +100,40 @@ TEST(SurfaceBarrier, IsTheLeastForEquilateralTrianglesAndHasNoUnit) {
   std::array<WeightedPoint, 3> some = {{{0, 0, 0, 0.1}, {1, 0, 0.5, 0}, {0.3, 0.2, 1, 0.2}}}, larger = some;
   for (WeightedPoint& p : larger) p = {8 * p.x, 8 * p.y, 8 * p.z, 64 * p.w};
   EXPECT_EQ(barrier(some, 0.1).value, barrier(larger, 0.1).value);
+}
+
+TEST(SurfaceDraft, TheGradientIsThatOfSteps) {
+  const SurfaceMesh mesh = shaken_torus(0.2, 7);
+  Rng rng(7);
+  Draft draft;
+  for (const VertexId v : mesh.vertices()) {
+    draft.points.push_back(mesh.point(v));
+    draft.moves.push_back(v.index % 3 == 0 ? 0 : 1);
+    draft.weighs.push_back(v.index % 4 == 0 ? 0 : 1);
+  }
+  for (const TriangleId t : mesh.triangles()) draft.triangles.push_back(mesh.connectivity().corners(t));
+  const IdVector<VertexId, WeightedPoint> points = draft.points;
+  DraftEnergy energy(draft, 0.5);
+  const std::vector<double> gradient = energy.value().gradient;
+  for (int i = 0; i < 200; ++i) {
+    const std::size_t k = rng.below(static_cast<std::uint32_t>(gradient.size()));
+    std::vector<double> step(gradient.size(), 0.0);
+    step[k] = 1e-5;
+    energy.place(step, 1);
+    const double after = energy.value().lowered;
+    energy.place(step, -1);
+    const double before = energy.value().lowered;
+    energy.place(step, 0);
+    EXPECT_NEAR((after - before) / 2e-5, gradient[k], 1e-5 * std::max(1.0, std::abs(gradient[k])));
+  }
+  EXPECT_EQ(draft.points, points);
+  const double first = energy.value().lowered;
+  energy.lower(10, [] { return false; });
+  EXPECT_LT(energy.value().lowered, first - 1);
+  for (const VertexId v : mesh.vertices()) {
+    EXPECT_TRUE(draft.moves[v] != 0 || draft.points[v].position() == points[v].position());
+    EXPECT_TRUE(draft.weighs[v] != 0 || draft.points[v].w == points[v].w);
+  }
 }
 
 TEST(SurfaceClosestPoint, IsTheBestOfAllTriangles) {
@@ -219,6 +254,56 @@ TEST(SurfaceOptimize, BoundaryFixedVerticesAndConstrainedEdgesStayInThePlane) {
   std::size_t constrained = 0;
   for (const HalfedgeId e : mesh.halfedges()) constrained += after.is_constrained(e) ? 1 : 0;
   EXPECT_EQ(constrained, 2U);
+}
+
+TEST(SurfacePatch, EditsKeepTheSurfaceAndItsFlags) {
+  test::SurfaceArrays arrays = test::icosphere(2);
+  arrays.constrained = {{arrays.triangles[0][0], arrays.triangles[0][1]}};
+  SurfaceInput in = arrays.input();
+  const std::vector<std::int32_t> fixed = {arrays.triangles[8][0], arrays.triangles[9][1]};
+  in.fixed_vertices = fixed;
+  State state{SurfaceMesh::build(in)->mesh, {}, {}, 0};
+  for (const VertexId v : state.mesh.vertices()) {
+    const Mesh& mesh = state.mesh.connectivity();
+    const bool is_end = static_cast<std::int32_t>(v.index) == arrays.constrained[0][0] ||
+                        static_cast<std::int32_t>(v.index) == arrays.constrained[0][1];
+    state.holds.push_back(is_end || mesh.is_fixed(v) ? 1 : 0);
+    state.origins.push_back(v);
+  }
+  const Nearness nearness(state.mesh, 1);
+  const SurfaceOptions options;
+  const auto solver = clp_solver();
+  const surfaces::Run run{options, nearness, *solver};
+  std::map<Edit::Kind, int> made;
+  for (const TriangleId t : {TriangleId(0), TriangleId(8), TriangleId(100)}) {
+    const Patch patch(state, t, 2);
+    for (const Edit& edit : patch.edits()) {
+      Patch trial = patch;
+      if (!trial.make(edit, nearness)) continue;
+      ++made[edit.kind];
+      trial.descend(run);
+      const std::optional<State> next = trial.in(state);
+      ASSERT_TRUE(next);
+      EXPECT_EQ(next->mesh.validate(), std::nullopt);
+      const Mesh& mesh = next->mesh.connectivity();
+      EXPECT_EQ(mesh.n_vertices() + mesh.n_triangles(), mesh.n_edges() + 2);
+      const int change = edit.kind == Edit::Kind::split ? 1 : edit.kind == Edit::Kind::collapse ? -1 : 0;
+      EXPECT_EQ(static_cast<int>(mesh.n_vertices()), static_cast<int>(state.mesh.n_vertices()) + change);
+      std::size_t n_fixed = 0, n_held = 0, n_constrained = 0;
+      for (const VertexId v : mesh.vertices()) {
+        const VertexId old = next->origins[v];
+        n_fixed += mesh.is_fixed(v) ? 1 : 0;
+        n_held += next->holds[v];
+        EXPECT_TRUE(next->holds[v] == 0 || next->mesh.position(v) == state.mesh.position(old));
+      }
+      for (const HalfedgeId h : mesh.halfedges()) n_constrained += mesh.is_constrained(h) ? 1 : 0;
+      EXPECT_EQ(n_fixed, 2U);
+      EXPECT_EQ(n_held, 4U);
+      EXPECT_EQ(n_constrained, 2U);
+    }
+  }
+  EXPECT_EQ(made[Edit::Kind::none], 3);
+  for (const Edit::Kind kind : {Edit::Kind::flip, Edit::Kind::split, Edit::Kind::collapse}) EXPECT_GT(made[kind], 5);
 }
 
 /// The surface of a cube of n³ cells. Points inside of its faces are shaken.
