@@ -1,4 +1,5 @@
-// A curved surface in, a well-centered one near it out. Build with find_package(temper) and temper::surfaces, temper::lp.
+// A curved surface in, a well-centered one near it out. Build with find_package(temper), and with temper::surfaces and
+// temper::lp.
 #include "temper/surfaces.hpp"
 
 #include <array>
