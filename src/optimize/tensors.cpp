@@ -51,6 +51,7 @@ struct Triangles {
   using Run = PlaneRun;
   static constexpr bool kTriesWellCentered = true;
   static constexpr BoundaryVertices kChangesSeams = BoundaryVertices::split;
+  static constexpr double kFewBad = 0;  // a round of splits may need the next one
 
   const OptimizeOptions& options;
   const OptimizeHooks& hooks;
@@ -86,6 +87,7 @@ struct Triangles {
   static std::size_t reported(const std::pair<std::size_t, std::size_t>& faults) { return faults.second; }
   [[nodiscard]] static double largest_gap(const MetricMesh& pieces) { return temper::largest_gap(pieces); }
 
+  static double n_cells(const Mesh& mesh) { return static_cast<double>(mesh.n_triangles()); }
   static bool becomes_regular(Mesh& mesh) { return restore_regularity(mesh).hidden.empty(); }
   /// Sets all weights to zero if vertices would be hidden.
   static void settle_weights(Mesh& mesh) {

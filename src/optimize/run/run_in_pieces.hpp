@@ -91,8 +91,9 @@ class RunInPieces {
   };
 
   Expected<Report> run_pieces() {
-    const bool comes_back = options_.change == Change::least && cells_.faults_of(first_.mesh).first == 0;
-    if (!first_.is_cut() || comes_back) return run_once();
+    if (!first_.is_cut()) return run_once();
+    first_faults_ = cells_.faults_of(first_.mesh);
+    if (options_.change == Change::least && first_faults_.first == 0) return run_once();  // nothing to do
     const bool changes = options_.boundary == Cells::kChangesSeams;
     const bool keeps_equations = cells_.largest_gap(first_) <= kClosed;
     if (keeps_equations) start_with_input();
@@ -100,10 +101,14 @@ class RunInPieces {
     if (changes) (void)change_seams(nullptr);
     auto report = run_and_keep();
     for (int i = 1; i < kRuns && changes && report && !stopped_early(report->stopped); ++i) {
+      const Faults before = last_faults_;
+      if (before.first == 0) break;
       if (!change_seams(&*report)) break;
       auto next = run_and_keep();
       if (!next) return next;
       report = joined(*std::move(report), *std::move(next));
+      const auto n_bad = static_cast<double>(last_faults_.first);
+      if (last_faults_ >= before && n_bad < Cells::kFewBad * Cells::n_cells(now_.pieces.mesh)) break;
     }
     if (report && !stopped_early(report->stopped)) reweigh();
     if (report) return_best(*report);
@@ -179,12 +184,12 @@ class RunInPieces {
 
   void start_with_input() {
     best_ = now_;
-    least_faults_ = cells_.faults_of(first_.mesh);
+    least_faults_ = first_faults_;
     best_is_input_ = true;
   }
   void keep_if_best() {
-    const Faults faults = cells_.faults_of(now_.pieces.mesh);
-    if (!best_.pieces.is_cut() || faults <= least_faults_) keep(faults);
+    last_faults_ = cells_.faults_of(now_.pieces.mesh);
+    if (!best_.pieces.is_cut() || last_faults_ <= least_faults_) keep(last_faults_);
   }
   void keep(const Faults& faults) {
     best_ = now_;
@@ -218,7 +223,7 @@ class RunInPieces {
     if (!found) return;
     Mesh weighted = now_.pieces.mesh;
     for (const VertexId v : weighted.vertices()) weighted.set_weight(v, found->weights[v]);
-    if (cells_.faults_of(weighted) >= least_faults_ || !cells_.becomes_regular(weighted)) return;
+    if (!cells_.becomes_regular(weighted)) return;
     if (const Faults faults = cells_.faults_of(weighted); faults < least_faults_) {
       now_.pieces.mesh = std::move(weighted);
       keep(faults);
@@ -234,7 +239,7 @@ class RunInPieces {
   void return_best(Report& report) {
     const bool is_input = best_is_input_;
     now_ = std::move(best_);
-    report.bad_before = Cells::reported(cells_.faults_of(first_.mesh));
+    report.bad_before = Cells::reported(first_faults_);
     report.bad_after = Cells::reported(least_faults_);
     if (is_input)
       report.notes.push_back("the input is returned: with its weights for each region it has fewer bad cells");
@@ -255,7 +260,7 @@ class RunInPieces {
   const Mesh& original_;
   const Pieces first_;
   State now_, best_;  ///< best_ is empty before the first run, unless the input may be returned
-  Faults least_faults_;
+  Faults first_faults_, least_faults_, last_faults_;  ///< of first_, of best_, and of the last run
   bool best_is_input_ = false;
   OptimizeOptions options_;
   Hooks hooks_;

@@ -27,6 +27,8 @@ struct Tetrahedra {
   using Run = PiecesRun;
   static constexpr bool kTriesWellCentered = false;  // the repairs of a run did
   static constexpr BoundaryVertices kChangesSeams = BoundaryVertices::slide;
+  // Part of the tetrahedra. If fewer are bad, rounds end when one leaves as many as it found. Else others may help yet.
+  static constexpr double kFewBad = 0.01;
   using Faults = std::pair<std::size_t, std::size_t>;
 
   const OptimizeOptions& options;
@@ -54,15 +56,15 @@ struct Tetrahedra {
   [[nodiscard]] static double largest_gap(const MetricMesh& pieces) { return largest_gap_of_edges(pieces); }
 
   static std::optional<Origins> change_seams(MetricMesh& /*pieces*/) { return std::nullopt; }
-  /// Lets vertices of interfaces slide while tetrahedra are bad.
+  /// Lets vertices of interfaces slide.
   template <class Whole, class MustStop>
   std::optional<Origins> change_seams_at_bad(MetricMesh& pieces, const Whole& whole, const MustStop& must_stop) const {
-    if (faults_of(pieces.mesh).first == 0) return std::nullopt;
     const TetMesh joined = whole();
     if (joined.n_tetrahedra() == 0 || !slide_seams(pieces, joined, options, must_stop)) return std::nullopt;
     return Origins();
   }
 
+  static double n_cells(const TetMesh& mesh) { return static_cast<double>(mesh.n_tetrahedra()); }
   static bool becomes_regular(TetMesh& /*mesh*/) { return true; }  // that is among the criteria
   /// Sets all weights to zero if that leaves fewer bad tetrahedra.
   void settle_weights(TetMesh& mesh) const {

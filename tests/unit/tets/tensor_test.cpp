@@ -16,6 +16,7 @@
 #include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
 #include "temper/tets/weights.hpp"
+#include "tets/optimize/seam_slide.hpp"
 
 namespace temper::tets {
 namespace {
@@ -444,6 +445,30 @@ TEST(TetOptimize, LetsInterfacesSlideOnBothSides) {
   };
   EXPECT_EQ(slid(BoundaryVertices::keep), 0U);
   EXPECT_GT(slid(BoundaryVertices::slide), 3U);
+}
+
+TEST(TetSlide, MovesAllCopiesOfAVertexTogetherAndNothingElse) {
+  const TetMesh mesh = two_layers(4, 0.1, 0);
+  const MetricMesh before = test::pieces_of(mesh, test::inverse_of({1, 0, 0.4, 1, -0.3, 12}), kUpper);
+  MetricMesh pieces = before;
+  OptimizeOptions options;
+  options.boundary = BoundaryVertices::slide;
+  EXPECT_FALSE(slide_seams(pieces, mesh, options, [] { return true; }));
+  for (const VertexId v : pieces.mesh.vertices()) EXPECT_EQ(pieces.mesh.position(v), before.mesh.position(v));
+  ASSERT_TRUE(slide_seams(pieces, mesh, options, [] { return false; }));
+  const auto place = [](const MetricMesh& of, VertexId v) {
+    return of.metric(of.mesh.incident(v)).from_metric(of.mesh.position(v));
+  };
+  std::size_t moved = 0;
+  for (const VertexId v : pieces.mesh.vertices()) {
+    EXPECT_LT(length(place(pieces, v) - place(pieces, pieces.first_copy(v))), 1e-12);
+    EXPECT_EQ(pieces.mesh.weight(v), before.mesh.weight(v));
+    if (pieces.mesh.position(v) == before.mesh.position(v)) continue;
+    ++moved;
+    EXPECT_NEAR(place(before, v).z, 2, 1e-12);
+    EXPECT_NEAR(place(pieces, v).z, 2, 1e-12);
+  }
+  EXPECT_GT(moved, 6U);
 }
 
 TEST(TetOptimize, RefusesTensorsOfTrianglesAndSplitInterfaces) {
