@@ -1,13 +1,13 @@
 // Operators and cells with diffusion tensors: those of the pieces in the planes of their metrics, mapped back and put
 // together at interfaces.
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "dec/coefficient.hpp"
+#include "mesh/pieces.hpp"
 #include "temper/dec.hpp"
 
 namespace temper {
@@ -41,8 +41,8 @@ class MetricDec {
       c_.star2[t] = there_.star2[t];
     }
     c_.coefficient = there_.coefficient;
-    add_copies(there_.star0, c_.star0);
-    if (!there_.capacity.empty()) add_copies(there_.capacity, c_.capacity);
+    c_.star0 = sums_of_copies(pieces_, there_.star0, mesh_.n_vertices());
+    if (!there_.capacity.empty()) c_.capacity = sums_of_copies(pieces_, there_.capacity, mesh_.n_vertices());
     return std::move(c_);
   }
 
@@ -79,18 +79,10 @@ class MetricDec {
     const DualEdge dual = {edge.dual_length, edge.left_height, edge.right_height};
     const double resistance = dual.combined(1 / k, 1 / l);
     c_.star1[e] = dual.combined(k, l) / edge.length;
-    c_.transmissibility[e] = over(edge.length, resistance);
+    c_.transmissibility[e] = over_height(edge.length, resistance);
     for (const std::optional<Side>& side : {left, right}) {
-      if (side) c_.half_transmissibility[side->halfedge] = over(side->factor * side->length, side->height);
+      if (side) c_.half_transmissibility[side->halfedge] = over_height(side->factor * side->length, side->height);
     }
-  }
-  static double over(double length, double height) {
-    return height == 0 ? std::numeric_limits<double>::infinity() : length / height;
-  }
-
-  void add_copies(const IdVector<VertexId, double>& of_pieces, IdVector<VertexId, double>& whole) const {
-    whole.assign(mesh_.n_vertices(), 0.0);
-    for (const VertexId v : pieces_.mesh.vertices()) whole[pieces_.first_copy(v)] += of_pieces[v];
   }
 
   const DecComplex& there_;

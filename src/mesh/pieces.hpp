@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -124,6 +125,20 @@ template <class Pieces>
     before.push_back(old.valid() ? pieces.first_copy(old) : old);
   }
   return before;
+}
+
+/// Adds up the values of the copies of each of the first `n` vertices, which are those of the whole mesh.
+template <class Pieces>
+[[nodiscard]] IdVector<VertexId, double> sums_of_copies(const Pieces& pieces, const IdVector<VertexId, double>& values,
+                                                        std::size_t n) {
+  IdVector<VertexId, double> sums(n, 0.0);
+  for (const VertexId v : pieces.mesh.vertices()) sums[pieces.first_copy(v)] += values[v];
+  return sums;
+}
+
+/// The quotient of the size of a face by the height over it.
+[[nodiscard]] inline double over_height(double size, double height) {
+  return height == 0 ? std::numeric_limits<double>::infinity() : size / height;
 }
 
 }  // namespace temper

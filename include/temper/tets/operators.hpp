@@ -100,7 +100,7 @@ struct DecComplex {
 /// a face is h_b/A_b + h_a/A_a, and its transmissibility is the harmonic sum of both sides. Its area and its
 /// orthocenter are of the side behind. The height ahead is multiplied by A_b/A_a. ★0 is the sum of all copies of a
 /// vertex.
-[[nodiscard]] DecComplex mapped_back(DecComplex complex, const MetricMesh& pieces, const TetMesh& mesh);
+[[nodiscard]] DecComplex mapped_back(const DecComplex& complex, const MetricMesh& pieces, const TetMesh& mesh);
 
 /// A summary of the operators, for a check before a solver uses them.
 struct DecSummary {

@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
+#include "mesh/pieces.hpp"
 #include "temper/tets/operators.hpp"
 #include "tets/dec/factors.hpp"
 #include "tets/mesh/tables.hpp"
 
 namespace temper::tets {
 namespace {
-
-double over(double area, double height) {
-  return height == 0 ? std::numeric_limits<double>::infinity() : area / height;
-}
 
 /// The edge between two vertices. Edges are sorted by their ends.
 EdgeId edge_between(const IdVector<EdgeId, DecEdge>& edges, VertexId a, VertexId b) {
@@ -43,8 +39,8 @@ class MetricDec {
     c_.volumes = there_.volumes;
     c_.star3 = there_.star3;
     c_.coefficient = there_.coefficient;
-    add_copies(there_.star0, c_.star0);
-    if (!there_.capacity.empty()) add_copies(there_.capacity, c_.capacity);
+    c_.star0 = sums_of_copies(pieces_, there_.star0, mesh_.n_vertices());
+    if (!there_.capacity.empty()) c_.capacity = sums_of_copies(pieces_, there_.capacity, mesh_.n_vertices());
     return std::move(c_);
   }
 
@@ -89,7 +85,7 @@ class MetricDec {
         const FaceId f = face_of(c_, t, mesh_.vertices(TetMesh::halfface(t, int(k))));
         const Side side = side_of(t, face_of(there_, t, pieces_.mesh.vertices(TetMesh::halfface(t, int(k)))));
         sides[f].at(c_.faces[f].behind == t ? 0 : 1) = side;
-        c_.half_transmissibility[TetMesh::halfface(t, int(k))] = over(side.factor * side.area, side.height);
+        c_.half_transmissibility[TetMesh::halfface(t, int(k))] = over_height(side.factor * side.area, side.height);
       }
     }
     for (std::size_t f = 0; f < c_.faces.size(); ++f) write(FaceId(f), sides[FaceId(f)]);
@@ -124,13 +120,8 @@ class MetricDec {
     } else {
       const double resistance =
           behind.height / (behind.factor * behind.area) + ahead.height / (ahead.factor * ahead.area);
-      c_.transmissibility[f] = over(1, resistance);
+      c_.transmissibility[f] = over_height(1, resistance);
     }
-  }
-
-  void add_copies(const IdVector<VertexId, double>& of_pieces, IdVector<VertexId, double>& whole) const {
-    whole.assign(mesh_.n_vertices(), 0.0);
-    for (const VertexId v : pieces_.mesh.vertices()) whole[pieces_.first_copy(v)] += of_pieces[v];
   }
 
   const DecComplex& there_;
@@ -143,7 +134,7 @@ class MetricDec {
 
 }  // namespace
 
-DecComplex mapped_back(DecComplex complex, const MetricMesh& pieces, const TetMesh& mesh) {
+DecComplex mapped_back(const DecComplex& complex, const MetricMesh& pieces, const TetMesh& mesh) {
   return MetricDec(complex, pieces, mesh).build();
 }
 
