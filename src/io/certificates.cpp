@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "io/text/failure.hpp"
 #include "temper/detail/certificate_io.hpp"
@@ -134,10 +135,14 @@ class CertificateReader {
     }
     const auto [p, q] = vertices<2>(json, "edge");
     if (kind == "crossing") return {{TermKind::crossing, p, q, VertexId()}, multiplier};
+    if (kind == "equal_crossing") {
+      const auto [r, s] = vertices<2>(json, "across");
+      return {{TermKind::equal_crossing, p, q, r, s}, multiplier};
+    }
     if (kind != "height" && kind != "dual") {
       fail(
-          "expected \"kind\" to be \"height\", \"crossing\", \"dual\", \"height_over_face\" or \"dual_of_face\", "
-          "found ",
+          "expected \"kind\" to be \"height\", \"crossing\", \"dual\", \"height_over_face\", \"dual_of_face\" or "
+          "\"equal_crossing\", found ",
           kind.dump());
     }
     const VertexId r = remaining(vertices<3>(json, "triangle"), {p, q}, "triangle");
@@ -163,6 +168,11 @@ Json constraint_json(const WeightConstraint& constraint, std::span<const std::si
   const bool of_face = kind == TermKind::height_over_face || kind == TermKind::dual_of_face;
   Json json;
   json["kind"] = name(kind);
+  if (kind == TermKind::equal_crossing) {
+    json["edge"] = {point(p), point(q)};
+    json["across"] = {point(r), point(s)};
+    return json;
+  }
   if (of_face) {
     json["tetrahedron"] = {point(p), point(q), point(r), point(s)};
   } else if (kind != TermKind::crossing) {
@@ -186,13 +196,31 @@ Json terms_json(const std::vector<Certificate::Term>& terms, std::span<const std
   return json;
 }
 
+/// The copies whose numbers the terms have.
+Json copies_json(const std::vector<Certificate::Term>& terms, std::span<const std::size_t> points,
+                 std::span<const CopyOfPoint> copies) {
+  std::set<std::size_t> used;
+  for (const auto& [c, multiplier] : terms) {
+    for (const VertexId v : {c.p, c.q, c.r, c.s, c.t}) {
+      if (v.valid()) used.insert(points.empty() ? std::size_t{v.index} : points[v.index]);
+    }
+  }
+  Json json = Json::array();
+  for (const CopyOfPoint& copy : copies) {
+    if (used.contains(copy.number)) json.push_back({copy.number, copy.point, copy.cell});
+  }
+  return json;
+}
+
 }  // namespace
 
-std::string certificate_to_json(const Certificate& certificate, std::span<const std::size_t> points) {
-  const Json json = {{"temper_certificate", kCertificateVersion},
-                     {"constraints", name(certificate.constraints)},
-                     {"margin", certificate.margin},
-                     {"terms", terms_json(certificate.terms, points)}};
+std::string certificate_to_json(const Certificate& certificate, std::span<const std::size_t> points,
+                                std::span<const CopyOfPoint> copies) {
+  Json json = {{"temper_certificate", kCertificateVersion},
+               {"constraints", name(certificate.constraints)},
+               {"margin", certificate.margin}};
+  if (Json used = copies_json(certificate.terms, points, copies); !used.empty()) json["copies"] = std::move(used);
+  json["terms"] = terms_json(certificate.terms, points);
   return json.dump(2) + "\n";
 }
 

@@ -207,6 +207,31 @@ void name_copies(InputOf<Subject>& input, const typename Subject::Pieces& pieces
   input.names = std::make_shared<VertexNames>(input.names, std::move(first_copies), pieces.mesh.n_vertices());
 }
 
+template <class Subject>
+CopyNumbers number_copies(const InputOf<Subject>& input, const typename Subject::Pieces& pieces) {
+  const io::VertexOfPoint& vertices = input.loaded.vertex_of_point;
+  CopyNumbers numbers = {input.points, {}, vertices};
+  if (!pieces.is_cut()) return numbers;
+  std::vector<bool> kept;
+  for (std::size_t p = 0; p < vertices.size(); ++p) kept.push_back(vertices[p] >= 0);
+  numbers.points.clear();
+  for (const VertexId v : pieces.mesh.vertices()) {
+    const VertexId first = pieces.first_copy(v);
+    const std::size_t point = input.points.empty() ? first.index : input.points[first.index];
+    if (first != v) numbers.copies.push_back({kept.size(), point, 0});
+    numbers.points.push_back(first == v ? point : kept.size());
+    if (first != v) kept.push_back(true);
+  }
+  for (const auto t : elements_of(pieces.mesh)) {
+    for (const VertexId v : pieces.mesh.corners(t)) {
+      if (const std::size_t number = numbers.points[v.index]; number >= vertices.size())
+        numbers.copies[number - vertices.size()].cell = t.index;
+    }
+  }
+  numbers.vertices = io::VertexOfPoint(kept);
+  return numbers;
+}
+
 void add_tensor(Command& command, TensorOption& tensor, const std::string& what, CellKinds cells) {
   Option option;
   option.names = "--tensor";
@@ -291,6 +316,7 @@ std::optional<MetricViewOf<Subject>> take_to_metric(InputOf<Subject>& input, con
   template S::Pieces in_metric(const S::Mesh&, const std::vector<S::Tensor>&, const std::vector<double>&, \
                                const InputOf<S>&);                                                        \
   template void name_copies(InputOf<S>&, const S::Pieces&);                                               \
+  template CopyNumbers number_copies(const InputOf<S>&, const S::Pieces&);                                \
   template void warn_without(const TensorOption&, const InputOf<S>&);                                     \
   template std::optional<S::Pieces> metric_of(const InputOf<S>&, const TensorOption&);                    \
   template std::optional<MetricViewOf<S>> take_to_metric(InputOf<S>&, const TensorOption&);

@@ -8,6 +8,7 @@
 
 #include "files/input.hpp"
 #include "help/command.hpp"
+#include "temper/detail/certificate_io.hpp"
 #include "temper/detail/tensor.hpp"
 
 namespace temper::app {
@@ -47,6 +48,15 @@ template <class Subject>
 /// Lets names and points of the input count the copies of vertices of interfaces, too.
 template <class Subject>
 void name_copies(InputOf<Subject>& input, const typename Subject::Pieces& pieces);
+
+/// Numbers of the vertices of pieces in certificates: those of points, then those of further copies.
+struct CopyNumbers {
+  std::vector<std::size_t> points;      ///< of each vertex; empty: the same
+  std::vector<io::CopyOfPoint> copies;  ///< what further numbers are
+  io::VertexOfPoint vertices;           ///< the vertex of each number
+};
+template <class Subject>
+[[nodiscard]] CopyNumbers number_copies(const InputOf<Subject>& input, const typename Subject::Pieces& pieces);
 
 /// Warns if the file has weights for each region, and no tensors were given.
 template <class Subject>

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "files/input.hpp"
+#include "files/tensor_option.hpp"
 #include "options/options.hpp"
 #include "reports/quality_report.hpp"
 #include "temper/dec.hpp"
@@ -101,6 +102,7 @@ struct WeightsRecord {
   const ConnectivityReport* search = nullptr;                        ///< with --connectivity search
   std::string_view output = {};                                      ///< empty: not written
   std::string_view certificate = {};                                 ///< the same
+  CopyNumbers numbers = {};                                          ///< in certificates
 };
 
 [[nodiscard]] std::string weights_text(const WeightsRecord& record);

@@ -57,9 +57,17 @@ std::string certificate_text(const WeightsRecord& r) {
   const Certificate& certificate = r.report.certificate;
   if (certificate.terms.empty()) return {};
   std::vector<std::string> lines;
-  for (const auto& term : certificate.terms) lines.push_back(r.text(term.constraint));
+  std::size_t equations = 0;
+  for (const auto& [constraint, multiplier] : certificate.terms) {
+    if (constraint.kind == Kind::equal_crossing)
+      ++equations;
+    else
+      lines.push_back(r.text(constraint));
+  }
   const std::string what = certificate.margin == 0 ? "all positive" : fmt::format("all above {}", certificate.margin);
-  return fmt::format("These {} cannot be {} (a certificate, verified exactly):\n", certificate.terms.size(), what) +
+  const std::string with =
+      equations == 0 ? "" : " with equal crossings of " + plural(equations, "interface edge", "interface edges");
+  return fmt::format("These {} cannot be {}{} (a certificate, verified exactly):\n", lines.size(), what, with) +
          listed(lines);
 }
 
@@ -277,7 +285,7 @@ std::string weights_json(const WeightsRecord& r) {
   for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r));
   json["certificate"] = report.certificate.terms.empty()
                             ? Json(nullptr)
-                            : Json::parse(io::certificate_to_json(report.certificate, r.points));
+                            : Json::parse(io::certificate_to_json(report.certificate, r.numbers.points, r.numbers.copies));
   return dump(json);
 }
 

@@ -239,7 +239,7 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   } else if (s.output.path.empty() && s.options.goal != WeightGoal::margin) {
     fail("--output is missing. Next: -o OUT, or --mode margin");
   }
-  for (const char* option : {"--check-certificate", "--certificate", "--zero", "--connectivity", "--edges"}) {
+  for (const char* option : {"--zero", "--connectivity", "--edges"}) {
     if (s.tensor.given() && command.was_given(option)) conflict("--tensor", option);
   }
   const bool regular = s.options.constraints == Constraints::regular, search = s.connectivity == Connectivity::search;
@@ -318,6 +318,10 @@ std::function<TriangleId(const WeightConstraint&)> triangles_of(const Mesh& mesh
 std::function<TriangleId(const WeightConstraint&)> triangles_of(const tets::TetMesh& /*mesh*/) { return {}; }
 
 CertificateCheck check_of(const WeightsSettings& s, const Mesh& mesh, const ConnectivityProof& proof) {
+  if (s.tensor.given())
+    throw Failure(Exit::bad_usage, fmt::format("{}: proofs over connectivities are for meshes without tensors. Next: "
+                                               "leave out --tensor",
+                                               s.check));
   if (mesh.space().is_plane() && !mesh.space().is_periodic()) return check_proof(mesh, proof);
   throw Failure(Exit::bad_input, fmt::format("{}: proofs over connectivities are for meshes of the plane. Next: give "
                                              "the mesh for which it was written",
@@ -331,10 +335,13 @@ CertificateCheck check_of(const WeightsSettings& s, const tets::TetMesh& /*mesh*
 
 template <class Subject>
 Exit check(const WeightsSettings& s, const InputOf<Subject>& input) {
-  const io::AnyCertificate any = read_certificate(s.check, input.loaded.vertex_of_point, Subject::element);
+  const auto pieces = metric_of(input, s.tensor);
+  const io::VertexOfPoint vertices = pieces ? number_copies(input, *pieces).vertices : input.loaded.vertex_of_point;
+  const io::AnyCertificate any = read_certificate(s.check, vertices, Subject::element);
   const auto* const certificate = std::get_if<Certificate>(&any);
-  const CertificateCheck found = certificate ? check_certificate(input.mesh(), *certificate)
-                                             : check_of(s, input.mesh(), std::get<ConnectivityProof>(any));
+  const CertificateCheck found = !certificate ? check_of(s, input.mesh(), std::get<ConnectivityProof>(any))
+                                 : pieces     ? check_certificate(*pieces, *certificate)
+                                              : check_certificate(input.mesh(), *certificate);
   return report_check(s, any, found, Subject::constraints());
 }
 
@@ -400,7 +407,8 @@ Exit end(const WeightsSettings& s, WeightsRecord& record, Outputs& outputs) {
     record.certificate = s.certificate;
   } else if (!s.certificate.empty() && (report.optimality || !report.certificate.terms.empty())) {
     outputs.write_text(s.certificate, report.optimality ? io::optimality_to_json(report, record.space, record.points)
-                                                        : io::certificate_to_json(report.certificate, record.points));
+                                                        : io::certificate_to_json(report.certificate, record.numbers.points,
+                                                                                  record.numbers.copies));
     record.certificate = s.certificate;
   }
   s.json ? print_data(weights_json(record)) : print(weights_text(record));
@@ -422,7 +430,10 @@ WeightsRecord record_of(const WeightsSettings& s, const InputOf<Subject>& input,
           input.points,
           [&](const WeightConstraint& c) { return constraint_text(c, input, mesh); },
           triangles_of(mesh),
-          search};
+          search,
+          {},
+          {},
+          {input.points, {}, {}}};
 }
 
 /// Finds weights in the planes of tensors.
@@ -434,6 +445,7 @@ Exit find_in_metric(const WeightsSettings& s, InputOf<Subject>& input, Outputs& 
   InputOf<Subject> named = input;
   name_copies(named, pieces);
   WeightsRecord record = record_of(s, named, pieces.mesh, report, nullptr);
+  record.numbers = number_copies(input, pieces);
   if (report.solved && !s.output.path.empty()) {
     pieces.mesh = with_weights(std::move(pieces.mesh), report.weights);
     const typename Subject::WholeMesh whole = or_fail(mapped_back(pieces, input.mesh(), pieces));

@@ -10,6 +10,11 @@
 // and "across" instead; the face turns counter-clockwise as seen from the fourth corner. Without "constraints" a file
 // is of well_centered. docs/explanation/certificates.md has the expressions that the multipliers multiply.
 //
+// With tensors of regions, vertices of interfaces have a copy on each side. The first copy has the number of its point.
+// Others have numbers after those of all points, and "copies" lists those in use: [number, point, cell], with a cell that
+// has the copy at a corner. An equal_crossing is the equation of the interface edge "edge", which is "across" on the
+// other side. Its multiplier may have either sign.
+//
 // A proof over connectivities has lemmas instead of "margin" and "terms":
 //
 //   {"temper_certificate": 1, "constraints": "well_centered",
@@ -29,8 +34,15 @@
 
 namespace temper::io {
 
-/// Returns a certificate as a text of lines. `points`: the point of each vertex in the file, from 0; empty: the same.
-[[nodiscard]] std::string certificate_to_json(const Certificate& certificate, std::span<const std::size_t> points = {});
+/// A further copy of a vertex on an interface between tensors, and a cell that has it at a corner.
+struct CopyOfPoint {
+  std::size_t number, point, cell;
+};
+
+/// Returns a certificate as a text of lines. `points`: the number of each vertex in the certificate, which is that of its
+/// point in the file, from 0; empty: the same. `copies`: what further numbers are.
+[[nodiscard]] std::string certificate_to_json(const Certificate& certificate, std::span<const std::size_t> points = {},
+                                              std::span<const CopyOfPoint> copies = {});
 /// Returns a proof over connectivities, with one lemma per line.
 [[nodiscard]] std::string certificate_to_json(const ConnectivityProof& proof, std::span<const std::size_t> points = {});
 
@@ -41,7 +53,7 @@ namespace temper::io {
 
 using AnyCertificate = std::variant<Certificate, ConnectivityProof>;
 
-/// Reads a certificate. Points become vertices of the mesh. `where`: the file, for errors. `cell`: "triangle" or
+/// Reads a certificate. Points become vertices of the mesh; `vertex_of_point` counts copies as points. `where`: the file, for errors. `cell`: "triangle" or
 /// "tetrahedron", for errors. Errors: no JSON, no certificate, a point out of range or of no vertex. An error names the
 /// wrong term or lemma.
 [[nodiscard]] Expected<AnyCertificate> certificate_from_json(std::string_view text,

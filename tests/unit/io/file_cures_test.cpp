@@ -101,5 +101,23 @@ TEST(CertificateIo, ComesBackInTheNumbersOfTheMesh) {
   EXPECT_EQ(dropped.error().what(), "c.json: term 0: point 0 is in no triangle");
 }
 
+TEST(CertificateIo, NamesCopiesOnInterfacesByPointAndCell) {
+  using Kind = WeightConstraint::Kind;
+  Certificate certificate;
+  certificate.terms = {{{Kind::equal_crossing, VertexId(0), VertexId(1), VertexId(4), VertexId(5)}, -2.5},
+                       {{Kind::crossing, VertexId(4), VertexId(5), VertexId()}, 1}};
+  const std::vector<std::size_t> points = {1, 2, 3, 4, 5, 6, 7};
+  const std::vector<CopyOfPoint> copies = {{5, 1, 8}, {6, 2, 8}, {7, 3, 9}};
+  const std::string text = certificate_to_json(certificate, points, copies);
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["copies"], nlohmann::json({{5, 1, 8}, {6, 2, 8}}));
+  EXPECT_EQ(json["terms"][0]["edge"], nlohmann::json({1, 2}));
+  EXPECT_EQ(json["terms"][0]["across"], nlohmann::json({5, 6}));
+  const VertexOfPoint vertices({false, true, true, true, true, true, true, true});
+  const auto back = certificate_from_json(text, vertices);
+  ASSERT_TRUE(back) << back.error().what();
+  EXPECT_EQ(std::get<Certificate>(*back), certificate);
+}
+
 }  // namespace
 }  // namespace temper::io
