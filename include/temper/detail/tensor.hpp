@@ -149,6 +149,19 @@ struct MetricMeshOf {
 };
 using MetricMesh = MetricMeshOf<Mesh, Metrics>;
 
+/// A mesh in its own plane, from its pieces. Tags of faces and lines have the numbers that they have in the pieces.
+template <class AnyMesh, class K>
+struct WholeMeshOf {
+  AnyMesh mesh;
+  /// Number of each vertex before the change; empty: the same numbers.
+  IdVector<VertexId, VertexId> vertices;
+  /// Weight of each corner of each cell; empty without interfaces. The mesh itself has at each vertex the weight of the
+  /// first copy.
+  std::vector<double> corner_weights;
+  std::vector<K> tensors;  ///< Tensor of each cell; empty if all have one
+};
+using WholeMesh = WholeMeshOf<Mesh, Tensor>;
+
 /// An edge of an interface: its halfedge in the mesh on either side.
 struct SeamEdge {
   HalfedgeId one, other;
@@ -168,16 +181,6 @@ struct SeamEdge {
 [[nodiscard]] MetricMesh with_mesh(const MetricMesh& pieces, Mesh changed,
                                    const IdVector<VertexId, VertexId>& vertices = {});
 
-/// A mesh in its own plane, from its pieces.
-struct WholeMesh {
-  Mesh mesh;
-  /// Number of each vertex before the change; empty: the same numbers.
-  IdVector<VertexId, VertexId> vertices;
-  /// Weight of each corner of each triangle, three each; empty without interfaces. The mesh itself has at each vertex
-  /// the weight of the first copy.
-  std::vector<double> corner_weights;
-  std::vector<Tensor> tensors;  ///< Tensor of each triangle; empty if all have one
-};
 /// Joins the pieces of a changed mesh, and maps them back to the plane of `original`. Vertices that have not moved
 /// since mapped(original), such as boundary, fixed and interface vertices, get their place from there, bit for bit.
 /// `pieces`: of mapped(original). `vertices`: number there of each vertex of `changed`; empty: the same numbers. Errors

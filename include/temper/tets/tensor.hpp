@@ -25,6 +25,8 @@ using Metric = MetricOf<Tensor3>;
 using Metrics = MetricsOf<Tensor3, TetId, InputNames>;
 /// A mesh in the spaces of its metrics, cut along interfaces.
 using MetricMesh = MetricMeshOf<TetMesh, Metrics>;
+/// A mesh in its own space, from its pieces.
+using WholeMesh = WholeMeshOf<TetMesh, Tensor3>;
 
 /// A face of an interface: its halfface in the mesh on either side.
 struct SeamFace {
@@ -51,16 +53,6 @@ struct SeamCorners {
 [[nodiscard]] MetricMesh with_mesh(const MetricMesh& pieces, TetMesh changed,
                                    const IdVector<VertexId, VertexId>& vertices = {});
 
-/// A mesh in its own space, from its pieces. Tagged faces and lines have the numbers that they have in the pieces.
-struct WholeMesh {
-  TetMesh mesh;
-  /// Number of each vertex before the change; empty: the same numbers.
-  IdVector<VertexId, VertexId> vertices;
-  /// Weight of each corner of each tetrahedron, four each; empty without interfaces. The mesh itself has at each vertex
-  /// the weight of the first copy.
-  std::vector<double> corner_weights;
-  std::vector<Tensor3> tensors;  ///< Tensor of each tetrahedron; empty if all have one
-};
 /// Joins the pieces of a changed mesh, and maps them back to the space of `original`. Vertices that have not moved
 /// since mapped(original) get their place from there, bit for bit. `pieces`: of mapped(original). `vertices`: number
 /// there of each vertex of `changed`; empty: the same numbers. Errors as for mapped().
