@@ -18,7 +18,8 @@
 #include "temper/tets/weights.hpp"
 
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
-TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "crossing", "dual", "height_over_face", "dual_of_face");
+TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "crossing", "dual", "height_over_face", "dual_of_face",
+                    "equal_crossing");
 TEMPER_PYTHON_NAMES(temper::Constraints, "well_centered", "heights_only", "regular", "coefficients", "distances",
                     "completely_well_centered");
 TEMPER_PYTHON_NAMES(temper::WeightGoal, "margin", "change", "elastic", "center", "accuracy", "least");
@@ -265,9 +266,12 @@ void bind_feasibility(py::module_& m) {
     };
     return weight_change(*mesh, weights(before), weights(after));
   });
-  m.def("check_certificate", [](const PyMesh& self, const py::dict& certificate) {
+  m.def("check_certificate", [](const PyMesh& self, const py::dict& certificate, const py::object& tensor) {
     const auto mesh = self.read();
-    return std::string(name(check_certificate(*mesh, certificate_from(certificate))));
+    const Certificate proof = certificate_from(certificate);
+    const bool is_plain = tensor.is_none();
+    return std::string(name(is_plain ? check_certificate(*mesh, proof)
+                                     : check_certificate(in_metric(*mesh, tensors_from<Tensor>(tensor)), proof)));
   });
   m.def("certificate_to_json", [](const py::dict& d) {
     return d.contains("lemmas") ? io::certificate_to_json(proof_from(d)) : io::certificate_to_json(certificate_from(d));
@@ -304,8 +308,12 @@ void bind_weights_of_tetrahedra(py::module_& m) {
   m.def("tet_weight_margin", [](const PyTetMesh& self, const std::string& constraints) {
     return tets::weight_margin(self.mesh(), from_name<Constraints>("constraints", constraints));
   });
-  m.def("tet_check_certificate", [](const PyTetMesh& self, const py::dict& certificate) {
-    return std::string(name(tets::check_certificate(self.mesh(), certificate_from(certificate))));
+  m.def("tet_check_certificate", [](const PyTetMesh& self, const py::dict& certificate, const py::object& tensor) {
+    const tets::TetMesh& mesh = self.mesh();
+    const Certificate proof = certificate_from(certificate);
+    const bool is_plain = tensor.is_none();
+    return std::string(name(is_plain ? tets::check_certificate(mesh, proof)
+                                     : tets::check_certificate(in_metric(mesh, tensors_from<Tensor3>(tensor)), proof)));
   });
 }
 

@@ -17,10 +17,11 @@ Constraints = Literal[
 class WeightConstraint:
     """One inequality of the constraints."""
 
-    kind: Literal["height", "crossing", "dual", "height_over_face", "dual_of_face"]
+    kind: Literal["height", "crossing", "dual", "height_over_face", "dual_of_face", "equal_crossing"]
     """height: h over edge pq of the triangle pqr, counter-clockwise; crossing: d from p towards q, for any edge pq;
     dual: dual length of pq between the triangles pqr and qps; height_over_face: h over the face pqr of the tetrahedron
-    pqrs; dual_of_face: dual length of pqr between the tetrahedra pqrs and prqt."""
+    pqrs; dual_of_face: dual length of pqr between the tetrahedra pqrs and prqt; equal_crossing: equation of pq, which is
+    rs on the other side of an interface between tensors."""
     p: int
     q: int
     r: int

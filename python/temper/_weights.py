@@ -317,14 +317,18 @@ class ConnectivityProof(Record):
         return cls._of(read_certificate(text, "lemmas"))
 
 
-def check_certificate(mesh: AnyMeshLike, certificate: Certificate | ConnectivityProof) -> str:
-    """Verifies a certificate, or a proof over connectivities, in exact arithmetic, from the positions alone. Returns
-    ``"proves"`` if no weights exist, else the fault of the certificate."""
+def check_certificate(
+    mesh: AnyMeshLike, certificate: Certificate | ConnectivityProof, *, tensor: TensorLike | None = None
+) -> str:
+    """Verifies a certificate, or a proof over connectivities, in exact arithmetic, from the positions and the diffusion
+    tensors alone. Returns ``"proves"`` if no weights exist, else the fault of the certificate."""
     any_mesh = as_any_mesh(mesh)
+    if isinstance(certificate, ConnectivityProof) and tensor is not None:
+        raise ValueError("tensor: proofs over connectivities are for meshes without tensors. Next: leave it out")
     if isinstance(certificate, ConnectivityProof):
         return _temper.check_proof(as_mesh(mesh)._handle, certificate._plain())
     check = _temper.tet_check_certificate if isinstance(any_mesh, TetMesh) else _temper.check_certificate
-    return check(any_mesh._handle, expect("certificate", certificate, Certificate)._plain())
+    return check(any_mesh._handle, expect("certificate", certificate, Certificate)._plain(), plain_tensor(any_mesh, tensor))
 
 
 # --- connectivity ----------------------------------------------------------------------------------------------

@@ -254,6 +254,17 @@ def test_weights_for_regions_keep_the_equations_of_interfaces():
         temper.find_weights(mesh, goal="least", tensor=tensors)
 
 
+def test_proofs_with_tensors_are_checked_with_them():
+    mesh, tensors, *_ = layered(3)
+    proof = temper.find_weights(mesh, goal="margin", tensor=tensors).certificate
+    assert temper.check_certificate(mesh, proof, tensor=tensors) == "proves"
+    assert temper.check_certificate(mesh, proof) != "proves"
+    assert temper.types.Certificate.from_json(proof.to_json()) == proof
+    searched = temper.types.ConnectivityProof("well_centered", [])
+    with pytest.raises(ValueError, match="tensor: proofs over connectivities are for meshes without tensors"):
+        temper.check_certificate(mesh, searched, tensor=tensors)
+
+
 def test_equal_tensors_of_regions_are_one_tensor():
     mesh, *_ = layered(3)
     copy = mesh.copy()
