@@ -20,21 +20,23 @@
 #include "temper/detail/ids.hpp"
 #include "temper/detail/necessity.hpp"
 #include "temper/detail/progress.hpp"
+#include "temper/detail/tensor.hpp"
 #include "temper/detail/vec.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
 
-/// Kinds of reasons why triangles are not well-centered. For edge, fan and patch, a certificate proves that no weights
-/// suit all triangles of the conflict. If any one triangle is taken away, some weights suit the rest.
+/// Kinds of reasons why triangles are not well-centered. For edge, fan, patch and interface, a certificate proves that
+/// no weights suit all triangles of the conflict. If any one triangle is taken away, some weights suit the rest.
 enum class ReasonKind {
-  split,     ///< A permanent edge must be split: no inner vertices, weights or connectivity help (necessity.hpp)
-  edge,      ///< The triangles on the two sides of an edge need its dual to cross it at different places
-  fan,       ///< Three or more triangles around one vertex have such a conflict
-  patch,     ///< Any other set of triangles, for example closed around a vertex
-  weights,   ///< Weights exist for these triangles and their neighbors, but have not been found yet
-  undecided  ///< Neither weights nor a certificate were found
+  split,         ///< A permanent edge must be split: no inner vertices, weights or connectivity help (necessity.hpp)
+  edge,          ///< The triangles on the two sides of an edge need its dual to cross it at different places
+  fan,           ///< Three or more triangles around one vertex have such a conflict
+  patch,         ///< Any other set of triangles, for example closed around a vertex
+  at_interface,  ///< Triangles on both sides of an interface between tensors, whose crossings cannot be equal
+  weights,       ///< Weights exist for these triangles and their neighbors, but have not been found yet
+  undecided      ///< Neither weights nor a certificate were found
 };
 [[nodiscard]] std::string_view name(ReasonKind kind);
 [[nodiscard]] std::span<const std::string_view> words_of(ReasonKind);
@@ -69,13 +71,14 @@ struct FanCenter {
 /// A change that would cure a reason.
 struct Cure {
   enum class Action {
-    find_weights,    ///< find_weights(), without other changes
-    optimize,        ///< optimize(), in which vertices may move
-    move_vertex,     ///< Move `vertex` to `at`
-    flip_edge,       ///< Flip `edge` to the other diagonal of its two triangles
-    insert_vertex,   ///< Insert a vertex at `at`, inside `triangle`
-    split_edge,      ///< Split the interior `edge` at `at`
-    split_boundary,  ///< Split the boundary `edge` at `at`
+    find_weights,     ///< find_weights(), without other changes
+    optimize,         ///< optimize(), in which vertices may move
+    move_vertex,      ///< Move `vertex` to `at`
+    flip_edge,        ///< Flip `edge` to the other diagonal of its two triangles
+    insert_vertex,    ///< Insert a vertex at `at`, inside `triangle`
+    split_edge,       ///< Split the interior `edge` at `at`
+    split_boundary,   ///< Split the boundary `edge` at `at`
+    split_interface,  ///< Split the `edge` of an interface between tensors at `at`, on both sides
   };
   Action action = Action::optimize;
   std::vector<VertexId> edge;  ///< Two vertices, or none
@@ -105,7 +108,9 @@ struct Reason {
   std::vector<TriangleId>
       conflict;  ///< For edge, fan, patch: smallest set of triangles for which no weights exist; `bad` is a part of it
   std::optional<EdgeConflict> must_split;  ///< Conflict of the edge, for split
-  Certificate certificate;                 ///< Proof for edge, fan, patch; check_certificate accepts it
+  /// The edge that must be split is on an interface between tensors, or a corner of the conflict is
+  bool at_interface = false;
+  Certificate certificate;  ///< Proof for edge, fan, patch, interface; check_certificate accepts it
   /// Best margin. For edge, fan, patch: margin of the conflict, at most 0. For weights: margin of the neighborhood,
   /// above 0.
   double margin = 0;
@@ -148,6 +153,10 @@ struct Explanation {
 ///     const auto why = explain(mesh, *clp_solver());
 ///     for (const Reason& reason : why->reasons) puts(reason_text(mesh, reason).c_str());
 [[nodiscard]] Expected<Explanation> explain(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options = {});
+/// The same in the planes of several tensors: weights must keep the equations of interfaces. Numbers and places are
+/// those of `pieces.mesh`.
+[[nodiscard]] Expected<Explanation> explain(const MetricMesh& pieces, LpSolver& solver,
+                                            const ExplainOptions& options = {});
 
 /// A reason in words, with the user's numbers: what is bad and where, and why.
 struct ReasonWords {

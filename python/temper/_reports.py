@@ -649,7 +649,7 @@ class EdgeConflict(Record):
 class Cure(Record):
     """A change that would cure a reason."""
 
-    action: Literal["find_weights", "optimize", "move_vertex", "flip_edge", "insert_vertex", "split_edge", "split_boundary"]
+    action: Literal["find_weights", "optimize", "move_vertex", "flip_edge", "insert_vertex", "split_edge", "split_boundary", "split_interface"]
     """Kind of the change."""
     edge: tuple[int, int] | None
     """Edge that is flipped or split."""
@@ -682,7 +682,7 @@ class Cure(Record):
 class Reason(Record):
     """A reason why triangles are not well-centered."""
 
-    kind: Literal["split", "edge", "fan", "patch", "weights", "undecided"]
+    kind: Literal["split", "edge", "fan", "patch", "interface", "weights", "undecided"]
     """Kind of the reason."""
     at: tuple[float, float]
     """Centroid of the worst triangle; on the sphere longitude and latitude [degrees]."""
@@ -707,7 +707,7 @@ class Reason(Record):
     must_split: EdgeConflict | None
     """Conflict of the edge, for split."""
     certificate: Certificate
-    """Proof for edge, fan, patch; `check_certificate` accepts it."""
+    """Proof for edge, fan, patch, interface; `check_certificate` accepts it."""
     cures_searched: bool
     """Cures were searched for; else `cures` has only those that need no search."""
     cures: list[Cure]
@@ -742,6 +742,8 @@ class FaceHeight(Record):
     """Vertices of the face."""
     boundary: bool
     """The face is on the boundary."""
+    at_interface: bool
+    """The face is on an interface between tensors."""
     h: float
     """Signed height, positive inside [length]."""
     h_over_l: float
@@ -773,10 +775,10 @@ class TetReason(Record):
     faces: list[FaceHeight]
     """Its faces."""
     all_on_boundary: bool
-    """All corners are on the boundary."""
+    """All corners are on the boundary, or on interfaces between tensors."""
     text: str
     """The reason in words."""
-    cure: Literal["weights", "optimize", "split_boundary"]
+    cure: Literal["weights", "optimize", "split_boundary", "slide"]
     """The change that may cure it; it is not tried."""
 
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "feasibility/certify.hpp"
 #include "feasibility/constraints.hpp"
 #include "geometry/surface.hpp"
 #include "quality/measure.hpp"
@@ -35,17 +36,23 @@ void sort_for_dropping(const Mesh& mesh, TriangleId kept, std::vector<TriangleId
   for (std::size_t i = 0; i < keys.size(); ++i) triangles[i] = keys[i].triangle;
 }
 
+BestMargin best_of(const Weighing& weighing, std::span<const TriangleId> triangles, LpSolver& solver) {
+  std::vector<TriangleId> sorted(triangles.begin(), triangles.end());
+  std::sort(sorted.begin(), sorted.end());
+  return best_margin_of(weighing.demand, as_cells(sorted), solver);
+}
+
 bool is_refuted(const BestMargin& best) { return !best.certificate.terms.empty(); }
 
-std::optional<Conflict> drop_what_can_be(const Mesh& mesh, std::vector<TriangleId> triangles, TriangleId kept,
+std::optional<Conflict> drop_what_can_be(const Weighing& weighing, std::vector<TriangleId> triangles, TriangleId kept,
                                          LpSolver& solver) {
-  BestMargin best = best_margin(mesh, triangles, solver);
+  BestMargin best = best_of(weighing, triangles, solver);
   if (!is_refuted(best)) return std::nullopt;
-  sort_for_dropping(mesh, kept, triangles);
+  sort_for_dropping(weighing.mesh, kept, triangles);
   for (std::size_t i = 0; i < triangles.size();) {
     std::vector<TriangleId> fewer = triangles;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
-    BestMargin without = fewer.empty() ? BestMargin() : best_margin(mesh, fewer, solver);
+    BestMargin without = fewer.empty() ? BestMargin() : best_of(weighing, fewer, solver);
     if (is_refuted(without)) {
       triangles = std::move(fewer);
       best = std::move(without);
@@ -58,7 +65,8 @@ std::optional<Conflict> drop_what_can_be(const Mesh& mesh, std::vector<TriangleI
 }
 
 /// The triangles that the terms name. A crossing names both sides of its edge, unless a height has named one already.
-/// Only triangles of `among`, unless it is empty.
+/// An equation of an interface does so for the edges on both of its sides. Only triangles of `among`, unless it is
+/// empty.
 std::vector<TriangleId> triangles_of(const Mesh& mesh, const Certificate& certificate,
                                      std::span<const TriangleId> among) {
   std::vector<TriangleId> triangles;
@@ -76,13 +84,16 @@ std::vector<TriangleId> triangles_of(const Mesh& mesh, const Certificate& certif
   const std::size_t by_height = triangles.size();
   for (const auto& [constraint, multiplier] : certificate.terms) {
     if (constraint.kind == WeightConstraint::Kind::height) continue;
-    std::vector<TriangleId> sides;
-    for (const HalfedgeId h :
-         {mesh.find_halfedge(constraint.p, constraint.q), mesh.find_halfedge(constraint.q, constraint.p)}) {
-      if (h.valid()) sides.push_back(Mesh::triangle(h));
-    }
-    const auto named = [&](TriangleId t) { return is_in(std::span(triangles).first(by_height), t); };
-    if (std::none_of(sides.begin(), sides.end(), named)) std::for_each(sides.begin(), sides.end(), add);
+    const auto add_sides = [&](VertexId p, VertexId q) {
+      std::vector<TriangleId> sides;
+      for (const HalfedgeId h : {mesh.find_halfedge(p, q), mesh.find_halfedge(q, p)}) {
+        if (h.valid()) sides.push_back(Mesh::triangle(h));
+      }
+      const auto named = [&](TriangleId t) { return is_in(std::span(triangles).first(by_height), t); };
+      if (std::none_of(sides.begin(), sides.end(), named)) std::for_each(sides.begin(), sides.end(), add);
+    };
+    add_sides(constraint.p, constraint.q);
+    if (is_equation(constraint)) add_sides(constraint.r, constraint.s);
   }
   return triangles;
 }
@@ -104,21 +115,23 @@ double angle_around(const Mesh& mesh, VertexId v) {
 
 }  // namespace
 
-std::optional<Conflict> shrink(const Mesh& mesh, const Certificate& certificate, TriangleId kept, LpSolver& solver) {
-  return drop_what_can_be(mesh, triangles_of(mesh, certificate, {}), kept, solver);
+std::optional<Conflict> shrink(const Weighing& weighing, const Certificate& certificate, TriangleId kept,
+                               LpSolver& solver) {
+  return drop_what_can_be(weighing, triangles_of(weighing.mesh, certificate, {}), kept, solver);
 }
 
-std::optional<Conflict> find_conflict(const Mesh& mesh, std::span<const TriangleId> triangles, TriangleId kept,
+std::optional<Conflict> find_conflict(const Weighing& weighing, std::span<const TriangleId> triangles, TriangleId kept,
                                       LpSolver& solver) {
   if (triangles.empty()) return std::nullopt;
-  const BestMargin best = best_margin(mesh, triangles, solver);
+  const BestMargin best = best_of(weighing, triangles, solver);
   if (!is_refuted(best)) return std::nullopt;
-  if (auto conflict = drop_what_can_be(mesh, triangles_of(mesh, best.certificate, triangles), kept, solver)) {
+  if (auto conflict =
+          drop_what_can_be(weighing, triangles_of(weighing.mesh, best.certificate, triangles), kept, solver)) {
     return conflict;
   }
   // The certificate used triangles without a term, to bound a residual.
   if (triangles.size() > kFew) return std::nullopt;
-  return drop_what_can_be(mesh, std::vector<TriangleId>(triangles.begin(), triangles.end()), kept, solver);
+  return drop_what_can_be(weighing, std::vector<TriangleId>(triangles.begin(), triangles.end()), kept, solver);
 }
 
 std::optional<FanCenter> fan_center(const Mesh& mesh, std::span<const TriangleId> triangles) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "feasibility/constraints.hpp"
 #include "temper/explain.hpp"
 #include "temper/mesh.hpp"
 
@@ -16,12 +17,18 @@ struct Conflict {
   BestMargin best;                    ///< of these, with certificate
 };
 
+/// A mesh, and its constraints on weights: those of well_centered, with the equations of interfaces if it is cut.
+struct Weighing {
+  const Mesh& mesh;
+  const TriangleDemand& demand;
+};
+
 /// A conflict among these triangles, when the checker accepts a certificate of one. A conflict with `kept`, when it is
 /// valid, is preferred to others, then one whose triangles are bad now. O(k) programs for k terms of the certificate.
-[[nodiscard]] std::optional<Conflict> find_conflict(const Mesh& mesh, std::span<const TriangleId> triangles,
+[[nodiscard]] std::optional<Conflict> find_conflict(const Weighing& weighing, std::span<const TriangleId> triangles,
                                                     TriangleId kept, LpSolver& solver);
 /// A conflict from a certificate about the mesh that the checker has accepted.
-[[nodiscard]] std::optional<Conflict> shrink(const Mesh& mesh, const Certificate& certificate, TriangleId kept,
+[[nodiscard]] std::optional<Conflict> shrink(const Weighing& weighing, const Certificate& certificate, TriangleId kept,
                                              LpSolver& solver);
 
 /// The vertex that all these triangles have, when there is one; of two vertices the one with the larger angle.

@@ -20,6 +20,7 @@
 #include "base/sort_unique.hpp"
 #include "explain/conflict.hpp"
 #include "explain/cures.hpp"
+#include "feasibility/certify.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "quality/measure.hpp"
@@ -112,12 +113,21 @@ std::size_t changed_near(const Mesh& mesh, const Reason& reason, const IdVector<
   return static_cast<std::size_t>(std::count_if(near.begin(), near.end(), [&](VertexId v) { return weights[v] != 0; }));
 }
 
+bool has_equations(const Certificate& certificate) {
+  return std::any_of(certificate.terms.begin(), certificate.terms.end(),
+                     [](const Certificate::Term& term) { return is_equation(term.constraint); });
+}
+
 class Explainer {
  public:
-  Explainer(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options)
+  /// `pieces`: null, or what has this mesh.
+  Explainer(const Mesh& mesh, const MetricMesh* pieces, LpSolver& solver, const ExplainOptions& options)
       : mesh_(mesh),
+        pieces_(pieces),
         solver_(solver),
         options_(options),
+        demand_(pieces != nullptr ? TriangleDemand(*pieces, Constraints::well_centered)
+                                  : TriangleDemand(mesh, Constraints::well_centered)),
         bad_(worst_first(mesh, bad_triangles(mesh))),
         state_(mesh.n_triangles(), kGood) {
     for (const BadTriangle& bad : bad_) state_[bad.triangle] = kUnexplained;
@@ -143,6 +153,36 @@ class Explainer {
  private:
   enum State : std::uint8_t { kGood, kUnexplained, kOwned };
 
+  /// The triangles at the corners of these, and at all copies of corners; sorted.
+  [[nodiscard]] std::vector<TriangleId> around(std::span<const TriangleId> triangles) const {
+    std::vector<CellId> cells;
+    for (const TriangleId t : triangles) {
+      for (const VertexId v : mesh_.corners(t)) demand_.add_cells_around(v, cells);
+    }
+    std::vector<TriangleId> all;
+    all.reserve(cells.size());
+    for (const CellId cell : cells) all.emplace_back(cell.index);
+    sort_unique(all);
+    return all;
+  }
+  [[nodiscard]] bool is_on_interface(VertexId v) const {
+    if (pieces_ == nullptr) return false;
+    std::size_t copies = 0;
+    demand_.for_each_copy(v, [&](VertexId) { ++copies; });
+    return copies > 1;
+  }
+  [[nodiscard]] bool is_seam(HalfedgeId h) const {
+    if (pieces_ == nullptr || !mesh_.is_boundary(h)) return false;
+    const auto seams = seams_of(*pieces_);
+    return std::any_of(seams.begin(), seams.end(), [h](const SeamEdge& s) { return s.one == h || s.other == h; });
+  }
+  [[nodiscard]] bool touches_interface(std::span<const TriangleId> triangles) const {
+    return std::any_of(triangles.begin(), triangles.end(), [&](TriangleId t) {
+      const auto corners = mesh_.corners(t);
+      return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return is_on_interface(v); });
+    });
+  }
+
   [[nodiscard]] std::vector<TriangleId> without_owned(std::vector<TriangleId> triangles) const {
     std::erase_if(triangles, [&](TriangleId t) { return state_[t] == kOwned; });
     return triangles;
@@ -158,7 +198,7 @@ class Explainer {
       std::vector<TriangleId> at_edge = {Mesh::triangle(c.edge)};
       if (!mesh_.is_boundary(c.edge)) at_edge.push_back(Mesh::triangle(mesh_.twin(c.edge)));
       for (int ring = 0; ring <= kRings && reason.bad.empty(); ++ring) {
-        if (ring > 0) at_edge = triangles_around(mesh_, at_edge);
+        if (ring > 0) at_edge = around(at_edge);
         for (const TriangleId t : at_edge) {
           if (state_[t] != kUnexplained) continue;
           state_[t] = kOwned;
@@ -167,6 +207,7 @@ class Explainer {
       }
       if (!reason.bad.empty()) measure_bad(mesh_, reason);
       reason.at = split_point(mesh_, c);
+      reason.at_interface = is_seam(c.edge);
       result_.reasons.push_back(std::move(reason));
       result_.verdict = Feasibility::infeasible;
     }
@@ -183,6 +224,12 @@ class Explainer {
     reason.crossing = crossing_conflict(mesh_, conflict.triangles);
     reason.center = fan_center(mesh_, conflict.triangles);
     reason.kind = kind_of(conflict, reason.center.has_value(), reason.crossing.has_value());
+    if (has_equations(conflict.best.certificate)) {
+      reason.kind = ReasonKind::at_interface;
+      reason.crossing.reset();
+      reason.center.reset();
+    }
+    reason.at_interface = touches_interface(conflict.triangles);
     reason.margin = conflict.best.margin;
     reason.checked = conflict.triangles.size();
     reason.free = free_vertices(mesh_, conflict.triangles);
@@ -195,7 +242,7 @@ class Explainer {
   /// Conflicts among these triangles, until none needs `seed`. Each owns at least one bad triangle.
   void find_conflicts(const std::vector<TriangleId>& region, TriangleId seed) {
     while (state_[seed] == kUnexplained) {
-      std::optional<Conflict> conflict = find_conflict(mesh_, without_owned(region), seed, solver_);
+      std::optional<Conflict> conflict = find_conflict({mesh_, demand_}, without_owned(region), seed, solver_);
       if (!conflict) return;
       own(*std::move(conflict));
     }
@@ -206,7 +253,7 @@ class Explainer {
     for (std::size_t i = 0; i < bad_.size(); ++i) {
       const bool beat = options_.progress && i % kBeats == 0;
       if (beat && options_.progress(i, bad_.size()) == Continue::no) return false;
-      find_conflicts(triangles_around(mesh_, {&bad_[i].triangle, 1}), bad_[i].triangle);
+      find_conflicts(around({&bad_[i].triangle, 1}), bad_[i].triangle);
     }
     return !options_.progress || options_.progress(bad_.size(), bad_.size()) == Continue::yes;
   }
@@ -226,7 +273,7 @@ class Explainer {
       group.bad = {bad.triangle};
       seen[bad.triangle] = 1;
       for (std::size_t i = 0; i < group.bad.size(); ++i) {
-        for (const TriangleId t : triangles_around(mesh_, {&group.bad[i], 1})) {
+        for (const TriangleId t : around({&group.bad[i], 1})) {
           if (state_[t] != kUnexplained || seen[t] != 0) continue;
           seen[t] = 1;
           group.bad.push_back(t);
@@ -234,7 +281,7 @@ class Explainer {
       }
       if (group.bad.size() <= options_.whole) group.region = group.bad;
       for (int ring = 0; ring < kRings && !group.region.empty(); ++ring) {
-        group.region = triangles_around(mesh_, group.region);
+        group.region = around(group.region);
         if (group.region.size() > options_.whole) group.region.clear();
       }
       group.region = without_owned(std::move(group.region));
@@ -260,14 +307,15 @@ class Explainer {
     WeightOptions weights;
     weights.goal = WeightGoal::margin;
     weights.whole = options_.whole;
-    auto report = find_weights(mesh_, solver_, weights);
+    auto report = pieces_ != nullptr ? find_weights(*pieces_, solver_, weights) : find_weights(mesh_, solver_, weights);
     if (!report) return;
     result_.verdict = report->verdict;
     result_.changed = report->moved;
     result_.margin = report->asked;
     if (report->verdict == Feasibility::feasible) weights_ = std::move(report->weights);
     if (report->verdict != Feasibility::infeasible) return;
-    if (auto conflict = shrink(mesh_, report->certificate, bad_.front().triangle, solver_)) own(*std::move(conflict));
+    if (auto conflict = shrink({mesh_, demand_}, report->certificate, bad_.front().triangle, solver_))
+      own(*std::move(conflict));
   }
 
   void explain_rest() {
@@ -283,7 +331,7 @@ class Explainer {
 
   /// Says whether weights exist that suit these triangles together; measures their margin.
   bool have_weights(Reason& reason, const std::vector<TriangleId>& triangles) {
-    const BestMargin best = best_margin(mesh_, triangles, solver_);
+    const BestMargin best = best_margin_of(demand_, as_cells(triangles), solver_);
     reason.margin = std::min(reason.margin, best.margin);
     reason.checked = std::max(reason.checked, triangles.size());
     return best.status == LpStatus::optimal && suits(mesh_, triangles, best);
@@ -298,8 +346,7 @@ class Explainer {
       reason.each = true;
       reason.margin = kUnbounded, reason.checked = 0;
       found = true;
-      for (const TriangleId t : reason.bad)
-        found = have_weights(reason, without_owned(triangles_around(mesh_, {&t, 1}))) && found;
+      for (const TriangleId t : reason.bad) found = have_weights(reason, without_owned(around({&t, 1}))) && found;
     }
     reason.kind = found || result_.verdict == Feasibility::feasible ? ReasonKind::weights : ReasonKind::undecided;
   }
@@ -309,10 +356,14 @@ class Explainer {
     std::size_t splits = 0;
     for (Reason& reason : result_.reasons) {
       if (reason.kind == ReasonKind::split) {
-        add_split(mesh_, reason, splits++ < options_.cures);
+        add_split(mesh_, reason, splits++ < options_.cures && !reason.at_interface);
+        if (reason.at_interface) reason.cures.back().action = Cure::Action::split_interface;
         continue;
       }
-      if (rank(reason) == 0) conflicts.push_back(&reason);
+      if (reason.kind == ReasonKind::at_interface)
+        add_split_of_interface(reason);
+      else if (rank(reason) == 0)
+        conflicts.push_back(&reason);
       if (reason.kind == ReasonKind::weights && !keeps_weights_) add_find_weights(reason);
       if (rank(reason) != 0 && !reason.free.empty()) reason.cures.emplace_back();  // optimize
     }
@@ -325,12 +376,36 @@ class Explainer {
         continue;
       }
       reason.cures = find_cures(mesh_, conflict, others_near(reason), solver_);
+      if (!touches_interface(around(conflict.triangles))) continue;
+      for (Cure& cure : reason.cures) cure.verified = false;  // trials do not know the equations
     }
+  }
+
+  /// Halves the interface edge whose equation counts most in the proof, in the piece of the worst triangle.
+  void add_split_of_interface(Reason& reason) const {
+    const auto squared = [&](VertexId p, VertexId q) { return squared_length(mesh_.position(q) - mesh_.position(p)); };
+    const WeightConstraint* most = nullptr;
+    double largest = -1;
+    for (const auto& [c, multiplier] : reason.certificate.terms) {
+      if (!is_equation(c)) continue;
+      const double size = std::abs(multiplier) * squared(c.p, c.q) * squared(c.r, c.s);
+      if (size > largest) most = &c, largest = size;
+    }
+    const auto is_here = [&](VertexId v) {
+      return mesh_.region(Mesh::triangle(mesh_.outgoing(v))) == mesh_.region(reason.bad.front());
+    };
+    const bool here = is_here(most->p) || !is_here(most->r);
+    Cure cure;
+    cure.action = Cure::Action::split_interface;
+    cure.edge = here ? std::vector{most->p, most->q} : std::vector{most->r, most->s};
+    cure.at = 0.5 * (mesh_.position(cure.edge[0]) + mesh_.position(cure.edge[1]));
+    reason.cures.push_back(cure);
+    if (!reason.free.empty()) reason.cures.emplace_back();  // optimize
   }
 
   /// Bad triangles near a conflict that have a reason of their own.
   [[nodiscard]] std::vector<TriangleId> others_near(const Reason& reason) const {
-    std::vector<TriangleId> others = triangles_around(mesh_, reason.conflict);
+    std::vector<TriangleId> others = around(reason.conflict);
     std::erase_if(others, [&](TriangleId t) {
       const bool own = std::binary_search(reason.conflict.begin(), reason.conflict.end(), t);
       return own || state_[t] != kOwned;
@@ -350,8 +425,10 @@ class Explainer {
   }
 
   const Mesh& mesh_;
+  const MetricMesh* const pieces_;  ///< null without tensors
   LpSolver& solver_;
   const ExplainOptions& options_;
+  const TriangleDemand demand_;
   const bool keeps_weights_ = has_quadrilaterals(mesh_);  ///< each of these has one center
   const std::vector<BadTriangle> bad_;
   IdVector<TriangleId, std::uint8_t> state_;
@@ -362,14 +439,14 @@ class Explainer {
 }  // namespace
 
 std::span<const std::string_view> words_of(ReasonKind) {
-  static constexpr std::string_view kNames[] = {"split", "edge", "fan", "patch", "weights", "undecided"};
+  static constexpr std::string_view kNames[] = {"split", "edge", "fan", "patch", "interface", "weights", "undecided"};
   return kNames;
 }
 std::string_view name(ReasonKind kind) { return words_of(kind)[static_cast<std::size_t>(kind)]; }
 
 std::span<const std::string_view> words_of(Cure::Action) {
-  static constexpr std::string_view kNames[] = {"find_weights",  "optimize",   "move_vertex",   "flip_edge",
-                                                "insert_vertex", "split_edge", "split_boundary"};
+  static constexpr std::string_view kNames[] = {"find_weights",  "optimize",   "move_vertex",    "flip_edge",
+                                                "insert_vertex", "split_edge", "split_boundary", "split_interface"};
   return kNames;
 }
 std::string_view name(Cure::Action action) { return words_of(action)[static_cast<std::size_t>(action)]; }
@@ -377,7 +454,11 @@ std::string_view name(Cure::Action action) { return words_of(action)[static_cast
 Expected<Explanation> explain(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   if (auto error = expect_no_period(mesh, "explain()")) return *std::move(error);
-  return Explainer(mesh, solver, options).run();
+  return Explainer(mesh, nullptr, solver, options).run();
+}
+
+Expected<Explanation> explain(const MetricMesh& pieces, LpSolver& solver, const ExplainOptions& options) {
+  return Explainer(pieces.mesh, pieces.is_cut() ? &pieces : nullptr, solver, options).run();
 }
 
 }  // namespace temper

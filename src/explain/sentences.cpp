@@ -25,6 +25,9 @@ class Speaker {
     const bool boundary = !mesh_.find_halfedge(p, q).valid() || !mesh_.find_halfedge(q, p).valid();
     return (boundary ? "boundary edge " : "edge ") + number(p) + "-" + number(q);
   }
+  [[nodiscard]] std::string interface_edge(VertexId p, VertexId q) const {
+    return "interface edge " + number(p) + "-" + number(q);
+  }
   /// Nine digits find a place on a map, in meters.
   [[nodiscard]] static std::string place(Vec2 p) { return "(" + rounded(p.x, 9) + ", " + rounded(p.y, 9) + ")"; }
 
@@ -53,6 +56,8 @@ class Speaker {
       case ReasonKind::fan:
       case ReasonKind::patch:
         return {opening(r), (r.crossing ? crossing(r) : together(r)) + proof(r) + freedom(r)};
+      case ReasonKind::at_interface:
+        return {opening(r), equal_crossings(r) + proof(r) + freedom(r)};
       case ReasonKind::weights:
         return {worst(r), weights_exist(r)};
       case ReasonKind::undecided:
@@ -87,8 +92,8 @@ class Speaker {
     const VertexId u = mesh_.origin(c.edge), v = mesh_.target(c.edge);
     const Surface surface(mesh_.space());
     const double l = surface.distance(surface.place(mesh_.point(u)), surface.place(mesh_.point(v)));
-    std::string what = edge(u, v);
-    what.front() = what.front() == 'b' ? 'B' : 'E';
+    std::string what = r.at_interface ? interface_edge(u, v) : edge(u, v);
+    what.front() = static_cast<char>(what.front() + ('A' - 'a'));
     what += " must be split, whatever is done inside.";
     if (!r.bad.empty()) what += " Bad there: " + triangles(r.bad) + ".";
     return {what, "It is " + rounded(l) + " long, and its dual must cross it less than " + rounded(c.a * l) + " from " +
@@ -158,6 +163,20 @@ class Speaker {
            " at " + vertex(where) + ". ";
   }
 
+  /// "Each region alone has weights. But dual edges must cross interface edges 3-4 and 4-9 at one place …".
+  [[nodiscard]] std::string equal_crossings(const Reason& r) const {
+    std::vector<std::string> edges;
+    for (const auto& [c, multiplier] : r.certificate.terms) {
+      if (c.kind == WeightConstraint::Kind::equal_crossing) edges.push_back(number(c.p) + "-" + number(c.q));
+    }
+    std::string text = "Each region alone has weights for them. But ";
+    text += edges.size() == 1 ? "the dual edge must cross interface edge " : "dual edges must cross interface edges ";
+    const std::size_t named = std::min(edges.size(), kNamed);
+    for (std::size_t i = 0; i < named; ++i) text += (i == 0 ? "" : i + 1 == edges.size() ? " and " : ", ") + edges[i];
+    if (edges.size() > named) text += ", … (" + std::to_string(edges.size()) + " in all)";
+    return text + " at one place for both tensors. ";
+  }
+
   [[nodiscard]] static std::string proof(const Reason& r) {
     return "So no weights make them well-centered as they stand (best margin " + rounded(r.margin) +
            "; proved exactly, by a certificate of " + std::to_string(r.certificate.terms.size()) + " terms). ";
@@ -171,6 +190,7 @@ class Speaker {
     std::vector<TriangleId> sorted = r.conflict;
     bool all_boundary = true;
     for (const VertexId v : vertices_of(mesh_, sorted)) all_boundary = all_boundary && mesh_.is_boundary(v);
+    if (r.at_interface) return "None of their corners is free to move: all are on interfaces, the boundary or fixed.";
     return all_boundary
                ? "None of their corners is free to move: all are on the boundary."
                : "None of their corners is free to move: all are on the boundary, on constrained edges or fixed.";
@@ -209,6 +229,8 @@ class Speaker {
       case Action::split_edge:
       case Action::split_boundary:
         return "split " + edge(c.edge[0], c.edge[1]) + " at " + place(c.at);
+      case Action::split_interface:
+        return "split " + interface_edge(c.edge[0], c.edge[1]) + " at " + place(c.at) + ", on both sides";
     }
     return {};
   }

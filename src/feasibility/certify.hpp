@@ -30,6 +30,9 @@ struct Bound {
   return demand.space().is_plane() && !demand.is_curved() ? duals : kLeastRefutedDual;
 }
 
+/// The best margin of some cells, with a certificate if there are no weights.
+[[nodiscard]] BestMargin best_margin_of(const Demand& demand, std::span<const CellId> cells, LpSolver& solver);
+
 /// A certificate that refutes the margin, with as few terms as possible; without terms when the checker accepts none.
 [[nodiscard]] Certificate certify(const Demand& demand, const Bound& bound, double margin);
 

@@ -72,6 +72,11 @@ class TriangleDemand : public Demand {
   [[nodiscard]] double weight(VertexId v) const override { return mesh_.weight(v); }
   void add_corners(CellId cell, std::vector<VertexId>& corners) const override;
   void add_cells_around(VertexId v, std::vector<CellId>& cells) const override;
+  /// Calls use(copy) for v and all its copies on interfaces.
+  template <class Use>
+  void for_each_copy(VertexId v, const Use& use) const {
+    seams_.for_each_copy(v, use);
+  }
   void add_vertices_across(VertexId v, std::vector<VertexId>& vertices) const override;
   [[nodiscard]] std::vector<WeightEdge> edges_of(std::span<const CellId> cells) const override;
   [[nodiscard]] std::vector<WeightConstraint> constraints_of(std::span<const CellId> cells, bool rim) const override;

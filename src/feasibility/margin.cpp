@@ -188,9 +188,7 @@ Bound bound_margin(const Demand& demand, std::span<const CellId> cells, LpSolver
   return bound;
 }
 
-namespace {
-
-BestMargin best_of(const Demand& demand, std::span<const CellId> cells, LpSolver& solver) {
+BestMargin best_margin_of(const Demand& demand, std::span<const CellId> cells, LpSolver& solver) {
   Bound bound = bound_margin(demand, cells, solver);
   if (bound.best.status == LpStatus::optimal && bound.best.margin < kNoMargin) {
     bound.best.certificate = certify(demand, bound, refuted_margin(demand, bound, kRefutedDual));
@@ -198,11 +196,9 @@ BestMargin best_of(const Demand& demand, std::span<const CellId> cells, LpSolver
   return std::move(bound.best);
 }
 
-}  // namespace
-
 BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
                        Constraints constraints, std::span<const HalfedgeId> edges) {
-  return best_of(TriangleDemand(mesh, constraints, edges), sorted_cells(triangles), solver);
+  return best_margin_of(TriangleDemand(mesh, constraints, edges), sorted_cells(triangles), solver);
 }
 
 BestMargin best_margin(const Mesh& mesh, LpSolver& solver, Constraints constraints, std::span<const HalfedgeId> edges) {
@@ -210,7 +206,7 @@ BestMargin best_margin(const Mesh& mesh, LpSolver& solver, Constraints constrain
   BestMargin worst;
   worst.margin = kUnbounded;
   for (const Region& component : components_of(demand)) {
-    BestMargin best = best_of(demand, component.cells, solver);
+    BestMargin best = best_margin_of(demand, component.cells, solver);
     if (best.status != LpStatus::optimal) return best;
     if (best.margin < worst.margin) worst = std::move(best);
   }

@@ -202,7 +202,8 @@ std::vector<Field<ReasonReport>> proof_rows() {
        [](const R& r) {
          return r.reason.must_split ? std::optional(EdgeConflictReport{r.mesh, *r.reason.must_split}) : std::nullopt;
        }},
-      {"certificate", "Proof for edge, fan, patch; `check_certificate` accepts it", "", of(&Reason::certificate)},
+      {"certificate", "Proof for edge, fan, patch, interface; `check_certificate` accepts it", "",
+       of(&Reason::certificate)},
       {"cures_searched", "Cures were searched for; else `cures` has only those that need no search", "",
        of(&Reason::cures_searched)},
       {"cures", "Cures, best first", "",

@@ -176,7 +176,8 @@ typename Subject::Tensor given_tensor(const std::vector<double>& components, con
   return tensor_from<K>(components);
 }
 
-/// Warns if dual edges do not cross interfaces at one place.
+}  // namespace
+
 template <class Subject>
 void warn_of_crossings(const InputOf<Subject>& input, const typename Subject::Pieces& pieces) {
   const double apart = largest_gap(pieces);
@@ -191,8 +192,6 @@ void warn_of_crossings(const InputOf<Subject>& input, const typename Subject::Pi
       where + (can_keep ? ". Next: temper optimize or temper weights, with --tensor"
                         : ": the metrics of the tensors differ within its faces, and no weights change that")});
 }
-
-}  // namespace
 
 template <class Subject>
 void name_copies(InputOf<Subject>& input, const typename Subject::Pieces& pieces) {
@@ -317,6 +316,7 @@ std::optional<MetricViewOf<Subject>> take_to_metric(InputOf<Subject>& input, con
                                const InputOf<S>&);                                                        \
   template void name_copies(InputOf<S>&, const S::Pieces&);                                               \
   template CopyNumbers number_copies(const InputOf<S>&, const S::Pieces&);                                \
+  template void warn_of_crossings(const InputOf<S>&, const S::Pieces&);                                   \
   template void warn_without(const TensorOption&, const InputOf<S>&);                                     \
   template std::optional<S::Pieces> metric_of(const InputOf<S>&, const TensorOption&);                    \
   template std::optional<MetricViewOf<S>> take_to_metric(InputOf<S>&, const TensorOption&);

@@ -67,6 +67,10 @@ template <class Subject>
 [[nodiscard]] std::optional<typename Subject::Pieces> metric_of(const InputOf<Subject>& input,
                                                                 const TensorOption& tensor);
 
+/// Warns if dual edges do not cross interfaces at one place.
+template <class Subject>
+void warn_of_crossings(const InputOf<Subject>& input, const typename Subject::Pieces& pieces);
+
 /// A mesh in its own plane, and in the planes of its metrics.
 template <class Subject>
 struct MetricViewOf {

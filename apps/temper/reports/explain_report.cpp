@@ -125,6 +125,7 @@ std::string command(const Mesh& mesh, const Cure& cure) {
     case Action::split_edge:
       return on_line() ? split_of_lines : "temper optimize --set repair=vertices";
     case Action::split_boundary:
+    case Action::split_interface:
       return split_of_lines;
   }
   return "";
@@ -182,7 +183,8 @@ std::string section(const Section& kind, const Explanation& e, const Input& inpu
 /// The command that may cure a tetrahedron.
 std::string command(tets::Cure cure) {
   if (cure == tets::Cure::weights) return "temper weights";
-  return cure == tets::Cure::optimize ? "temper optimize" : "temper optimize --boundary split";
+  if (cure == tets::Cure::optimize) return "temper optimize";
+  return cure == tets::Cure::slide ? "temper optimize --boundary slide" : "temper optimize --boundary split";
 }
 
 std::string summary(const tets::Explanation& e) {
@@ -191,8 +193,10 @@ std::string summary(const tets::Explanation& e) {
   if (movable > 0)
     text += fmt::format("  {} with an inner vertex, whose move may help. Try: {}\n", movable, command(e.cure(false)));
   if (e.all_on_boundary > 0)
-    text += fmt::format("  {} with all corners on the boundary: weights, flips and new vertices may help. Try: {}\n",
-                        e.all_on_boundary, command(e.cure(true)));
+    text += fmt::format("  {} with all corners on the boundary{} may help. Try: {}\n", e.all_on_boundary,
+                        e.has_interfaces ? " or on interfaces: weights, and vertices that slide there,"
+                                         : ": weights, flips and new vertices",
+                        command(e.cure(true)));
   return text;
 }
 
@@ -211,9 +215,11 @@ std::string paragraph(const TetInput& input, const tets::Reason& reason, std::si
       answer("why", renumber(reason.why, name) + ".", style);
   for (const tets::FaceHeight& face : reason.faces) {
     text += fmt::format("{}{} {}: h = {:.4g}, h/l = {:.4g}{}{}\n", std::string(kIndent + kQuestion, ' '),
-                        face.boundary ? "boundary face" : "face", input.vertex_numbers(face.vertices, "-"), face.h,
-                        face.h_over_l, face.outside ? ", outside" : "",
-                        face.crossed ? "" : ", does not contain its own orthocenter");
+                        face.at_interface ? "interface face"
+                        : face.boundary   ? "boundary face"
+                                          : "face",
+                        input.vertex_numbers(face.vertices, "-"), face.h, face.h_over_l,
+                        face.outside ? ", outside" : "", face.crossed ? "" : ", does not contain its own orthocenter");
   }
   return text + answer("cure", "Try: " + command(reason.cure), style);
 }
@@ -280,11 +286,13 @@ std::string explanation_text(const Explanation& e, const Input& input, std::size
   return text;
 }
 
-std::string explanation_json(const Explanation& e, const Input& input) {
+std::string explanation_json(const Explanation& e, const Input& input, const CopyNumbers& numbers) {
   const VertexNames names(nullptr, input.points, input.mesh().n_vertices());
   Json json = {{"schema", kSchema}};
   json.update(json_of(ExplanationReport{input.mesh(), e, &names}, input.points));
   for (std::size_t i = 0; i < e.reasons.size(); ++i) {
+    if (const Certificate& proof = e.reasons[i].certificate; !proof.terms.empty())
+      json["reasons"][i]["certificate"] = Json::parse(io::certificate_to_json(proof, numbers.points, numbers.copies));
     Json& cures = json["reasons"][i]["cures"];
     for (std::size_t k = 0; k < cures.size(); ++k) {
       const std::string how = command(input.mesh(), e.reasons[i].cures[k]);

@@ -83,7 +83,9 @@ template <class Subject>
                                            const TextStyle& style);
 /// All reasons. Vertices and elements are counted from 0, in the texts too.
 [[nodiscard]] std::string explanation_json(const DualExplanation& explanation, std::span<const std::size_t> points);
-[[nodiscard]] std::string explanation_json(const Explanation& explanation, const Input& input);
+/// `numbers`: of vertices in certificates.
+[[nodiscard]] std::string explanation_json(const Explanation& explanation, const Input& input,
+                                           const CopyNumbers& numbers);
 [[nodiscard]] std::string explanation_json(const tets::Explanation& explanation, const TetInput& input);
 
 // The reports of `temper weights`: text for people, and JSON.

@@ -283,9 +283,10 @@ std::string weights_json(const WeightsRecord& r) {
   json["optimality"] = optimality_json(report);
   json["violations"] = Json::array();
   for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r));
-  json["certificate"] = report.certificate.terms.empty()
-                            ? Json(nullptr)
-                            : Json::parse(io::certificate_to_json(report.certificate, r.numbers.points, r.numbers.copies));
+  json["certificate"] =
+      report.certificate.terms.empty()
+          ? Json(nullptr)
+          : Json::parse(io::certificate_to_json(report.certificate, r.numbers.points, r.numbers.copies));
   return dump(json);
 }
 

@@ -40,13 +40,17 @@ struct DrawSettings {
   bool no_primal = false, no_dual = false, no_rings = false;
 };
 
-void add_options(Command& command, DrawSettings& s) {
+void add_files(Command& command, DrawSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "Mesh to draw, of " + any_elements() + ".").require();
   add_projection(command, s.projection);
   add_heights(command, s.heights);
   add_text(command, "-o,--output", "FILE", s.output, "Picture to write: .svg, .png or .pdf.").require();
   add_text(command, "--before", "IN0", s.before, "Second mesh, drawn to the left of IN at the same scale.");
+}
+
+void add_options(Command& command, DrawSettings& s) {
+  add_files(command, s);
   command.group("Picture");
   add_text(
       command, "--cut", "AXIS[=VALUE]", s.cut,
@@ -80,7 +84,7 @@ void add_options(Command& command, DrawSettings& s) {
       command, "--cells", kCellsOf, [&s](CellsOf value) { s.cells = value; },
       "Cells to fill by their regions, instead of triangles by their margin: power cells or triangles. Of the edges, "
       "only boundaries and lines are drawn. Lines on faces of power cells are thick, and have their names.");
-  add_tensor(command, s.tensor, "Draw meshes", CellKinds::triangles);
+  add_tensor(command, s.tensor, "Draw meshes");
   command.add_flag("--numbers", s.options.vertex_numbers, "Number the vertices, from 0.");
   add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "Factor on the radius of weight circles.");
   add_numbers(
@@ -236,14 +240,26 @@ tets::Plane plane_of(const DrawSettings& s, const tets::TetMesh& mesh) {
   return *plane;
 }
 
+/// The meshes of the panels in the metrics of tensors, from left to right; none without tensors. Warns if dual edges do
+/// not cross interfaces at one place.
+template <class Subject>
+std::vector<typename Subject::Pieces> pieces_of(const DrawSettings& s, const InputOf<Subject>& input,
+                                                const InputOf<Subject>* before) {
+  std::vector<typename Subject::Pieces> all;
+  if (!s.tensor.given()) return all;
+  for (const InputOf<Subject>* panel : {before, &input}) {
+    if (panel == nullptr) continue;
+    all.push_back(*metric_of(*panel, s.tensor));
+    if (panel == &input) warn_of_crossings(input, all.back());
+  }
+  return all;
+}
+
 /// The picture of a mesh, or of two if `before` is not null.
 std::string picture(const DrawSettings& s, Input& input, Input* before) {
   check_view(s.options, input);
   DrawOptions options = s.options;
-  for (const Input* panel : {static_cast<const Input*>(before), static_cast<const Input*>(&input)}) {
-    if (panel == nullptr || !s.tensor.given()) continue;
-    options.pieces.push_back(*metric_of(*panel, s.tensor));
-  }
+  options.pieces = pieces_of(s, input, before);
   if (before == nullptr) {
     set_colors(options, s.color, {&input});
     set_cells(options, s.cells, {&input});
@@ -257,10 +273,11 @@ std::string picture(const DrawSettings& s, Input& input, Input* before) {
 
 std::string picture(const DrawSettings& s, const TetInput& input, const TetInput* before) {
   DrawOptions options = s.options;
+  const std::vector<tets::MetricMesh> pieces = pieces_of(s, input, before);
   options.fill = s.color != "none";
   const tets::Plane plane = plane_of(s, input.mesh());
-  return before == nullptr ? draw_svg(input.mesh(), plane, options)
-                           : draw_before_after_svg(before->mesh(), input.mesh(), plane, options);
+  return before == nullptr ? draw_svg(input.mesh(), plane, options, pieces)
+                           : draw_before_after_svg(before->mesh(), input.mesh(), plane, options, pieces);
 }
 
 template <class Subject>

@@ -37,7 +37,7 @@ void add_options(Command& command, ExplainSettings& s) {
   add_projection(command, s.projection);
   add_heights(command, s.heights);
   add_target(command, s.target, false);
-  add_tensor(command, s.tensor, "Explain triangles", CellKinds::triangles);
+  add_tensor(command, s.tensor, "Explain " + any_elements());
   command.add_flag("--json", s.json, "Print all reasons as JSON, with vertices and elements counted from 0.");
   add_count(command, "--limit", s.limit, 0,
             "Largest number of conflicts to print, and of places for which weights exist. Cures are searched for these "
@@ -73,10 +73,19 @@ class Counter {
   bool enabled_ = error_is_terminal();
 };
 
-tets::Explanation explained(const ExplainSettings& s, const TetInput& input, const std::optional<MetricView>&) {
+using TetView = MetricViewOf<Tetrahedra>;
+
+tets::Explanation explained(const ExplainSettings& s, const TetInput& input, const std::optional<TetView>& view) {
   tets::ExplainOptions options = {.whole = s.whole};
   if (!s.json) options.reasons = s.limit;
-  return or_fail(explain(input.mesh(), *clp_solver(), options));
+  if (!view) return or_fail(explain(input.mesh(), *clp_solver(), options));
+  tets::Explanation explanation = or_fail(explain(view->pieces, *clp_solver(), options));
+  for (tets::Reason& reason : explanation.reasons) {
+    const tets::Metric& metric = view->pieces.metric(reason.tetrahedron);
+    reason.at = metric.from_metric(reason.at);
+    reason.orthocenter = metric.from_metric(reason.orthocenter);
+  }
+  return explanation;
 }
 
 /// A place that was measured in the metric of a triangle, in the file.
@@ -91,9 +100,10 @@ Explanation explained(const ExplainSettings& s, const Input& input, const std::o
   options.cures = s.limit;
   options.whole = s.whole;
   options.progress = [&counter](std::size_t done, std::size_t all) { return counter.show(done, all); };
-  Explanation explanation = or_fail(explain(input.mesh(), *solver, options));
+  Explanation explanation =
+      or_fail(view ? explain(view->pieces, *solver, options) : explain(input.mesh(), *solver, options));
   for (Reason& reason : explanation.reasons) {
-    const TriangleId t = reason.bad.front();
+    const TriangleId t = reason.must_split ? Mesh::triangle(reason.must_split->edge) : reason.bad.front();
     reason.at = place_of(input, view, t, reason.at);
     for (Cure& cure : reason.cures) cure.at = place_of(input, view, t, cure.at);
   }
@@ -102,26 +112,34 @@ Explanation explained(const ExplainSettings& s, const Input& input, const std::o
 }
 
 /// The violations of a criterion of duals, with places of the file.
-template <class AnyInput>
-DualExplanation explained_duals(const ExplainSettings& s, const AnyInput& input, Criterion criterion,
-                                const std::optional<MetricView>& view) {
+template <class Subject>
+DualExplanation explained_duals(const ExplainSettings& s, const InputOf<Subject>& input, Criterion criterion,
+                                const std::optional<MetricViewOf<Subject>>& view) {
   const std::size_t most = s.json ? static_cast<std::size_t>(-1) : s.limit;
   DualExplanation explanation = explain_duals(input.mesh(), criterion, most);
-  if constexpr (std::is_same_v<AnyInput, Input>) {
-    for (DualReason& reason : explanation.reasons) {
+  for (DualReason& reason : explanation.reasons) {
+    if constexpr (std::is_same_v<Subject, Triangles>) {
       const TriangleId t = Mesh::triangle(input.mesh().outgoing(reason.vertices.front()));
       const Vec2 at = place_of(input, view, t, {reason.at.x, reason.at.y});
       reason.at = {at.x, at.y, 0};
+    } else if (view) {
+      const tets::TetId t = input.mesh().incident(reason.vertices.front());
+      reason.at = view->pieces.metric(t).from_metric(reason.at);
     }
   }
   return explanation;
 }
 
-std::optional<MetricView> view_of(const ExplainSettings& s, Input& input) { return take_to_metric(input, s.tensor); }
-std::optional<MetricView> view_of(const ExplainSettings& /*s*/, const TetInput& /*input*/) { return {}; }
+std::string json_of_explanation(const Explanation& e, const Input& input, const std::optional<MetricView>& view) {
+  return explanation_json(e, input, view ? number_copies(input, view->pieces) : CopyNumbers{input.points, {}, {}});
+}
+std::string json_of_explanation(const tets::Explanation& e, const TetInput& input, const std::optional<TetView>&) {
+  return explanation_json(e, input);
+}
 
-template <class AnyInput>
-void print_explanation(const ExplainSettings& s, const AnyInput& input, const std::optional<MetricView>& view) {
+template <class Subject>
+void print_explanation(const ExplainSettings& s, const InputOf<Subject>& input,
+                       const std::optional<MetricViewOf<Subject>>& view) {
   if (const Criterion criterion = criterion_of_target(s.target); criterion != Criterion::well_centered) {
     const DualExplanation explanation = explained_duals(s, input, criterion, view);
     if (s.json) return print_data(explanation_json(explanation, input.points));
@@ -132,7 +150,7 @@ void print_explanation(const ExplainSettings& s, const AnyInput& input, const st
     return;
   }
   const auto explanation = explained(s, input, view);
-  s.json ? print_data(explanation_json(explanation, input))
+  s.json ? print_data(json_of_explanation(explanation, input, view))
          : print(explanation_text(explanation, input, s.limit, text_style()));
 }
 
@@ -157,7 +175,7 @@ Exit run_explain(const Arguments& arguments) {
       [&]<class Subject>(InputOf<Subject>& input) {
         expect_target_for("explain", input.path, s.target, Subject::cells);
         print_warnings(input.warnings());
-        print_explanation(s, input, view_of(s, input));
+        print_explanation(s, input, take_to_metric(input, s.tensor));
       },
       any);
   return Exit::done;

@@ -406,9 +406,10 @@ Exit end(const WeightsSettings& s, WeightsRecord& record, Outputs& outputs) {
     outputs.write_text(s.certificate, io::certificate_to_json(record.search->proof, record.points));
     record.certificate = s.certificate;
   } else if (!s.certificate.empty() && (report.optimality || !report.certificate.terms.empty())) {
-    outputs.write_text(s.certificate, report.optimality ? io::optimality_to_json(report, record.space, record.points)
-                                                        : io::certificate_to_json(report.certificate, record.numbers.points,
-                                                                                  record.numbers.copies));
+    outputs.write_text(s.certificate,
+                       report.optimality
+                           ? io::optimality_to_json(report, record.space, record.points)
+                           : io::certificate_to_json(report.certificate, record.numbers.points, record.numbers.copies));
     record.certificate = s.certificate;
   }
   s.json ? print_data(weights_json(record)) : print(weights_text(record));

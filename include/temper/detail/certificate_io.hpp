@@ -11,9 +11,9 @@
 // is of well_centered. docs/explanation/certificates.md has the expressions that the multipliers multiply.
 //
 // With tensors of regions, vertices of interfaces have a copy on each side. The first copy has the number of its point.
-// Others have numbers after those of all points, and "copies" lists those in use: [number, point, cell], with a cell that
-// has the copy at a corner. An equal_crossing is the equation of the interface edge "edge", which is "across" on the
-// other side. Its multiplier may have either sign.
+// Others have numbers after those of all points, and "copies" lists those in use: [number, point, cell], with a cell
+// that has the copy at a corner. An equal_crossing is the equation of the interface edge "edge", which is "across" on
+// the other side. Its multiplier may have either sign.
 //
 // A proof over connectivities has lemmas instead of "margin" and "terms":
 //
@@ -39,8 +39,8 @@ struct CopyOfPoint {
   std::size_t number, point, cell;
 };
 
-/// Returns a certificate as a text of lines. `points`: the number of each vertex in the certificate, which is that of its
-/// point in the file, from 0; empty: the same. `copies`: what further numbers are.
+/// Returns a certificate as a text of lines. `points`: the number of each vertex in the certificate, which is that of
+/// its point in the file, from 0; empty: the same. `copies`: what further numbers are.
 [[nodiscard]] std::string certificate_to_json(const Certificate& certificate, std::span<const std::size_t> points = {},
                                               std::span<const CopyOfPoint> copies = {});
 /// Returns a proof over connectivities, with one lemma per line.
@@ -53,9 +53,9 @@ struct CopyOfPoint {
 
 using AnyCertificate = std::variant<Certificate, ConnectivityProof>;
 
-/// Reads a certificate. Points become vertices of the mesh; `vertex_of_point` counts copies as points. `where`: the file, for errors. `cell`: "triangle" or
-/// "tetrahedron", for errors. Errors: no JSON, no certificate, a point out of range or of no vertex. An error names the
-/// wrong term or lemma.
+/// Reads a certificate. Points become vertices of the mesh; `vertex_of_point` counts copies as points. `where`: the
+/// file, for errors. `cell`: "triangle" or "tetrahedron", for errors. Errors: no JSON, no certificate, a point out of
+/// range or of no vertex. An error names the wrong term or lemma.
 [[nodiscard]] Expected<AnyCertificate> certificate_from_json(std::string_view text,
                                                              const VertexOfPoint& vertex_of_point,
                                                              const std::string& where = {},

@@ -1,10 +1,12 @@
 // Pictures of meshes of tetrahedra: cuts by a plane, as SVG text.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "temper/draw.hpp"
 #include "temper/tets/mesh.hpp"
+#include "temper/tets/tensor.hpp"
 
 namespace temper::tets {
 
@@ -25,10 +27,12 @@ struct Plane {
 /// Draws the cut of a mesh by a plane. Tetrahedra are colored by their margin, the least h/ℓ, and bad ones are hatched.
 /// The axes of the picture are y and z, x and z, or x and y. A vertex on the plane counts as above it, so a plane along
 /// faces shows the tetrahedra below. Only the options `primal`, `fill`, `zoom`, `width` and
-/// `title` apply. O(n).
-[[nodiscard]] std::string draw_svg(const TetMesh& mesh, const Plane& plane, const DrawOptions& options = {});
+/// `title` apply. `pieces`: none, or each mesh in the spaces of its tensors, whose margins are drawn. O(n).
+[[nodiscard]] std::string draw_svg(const TetMesh& mesh, const Plane& plane, const DrawOptions& options = {},
+                                   std::span<const MetricMesh> pieces = {});
 /// Draws the cuts of two meshes next to each other.
 [[nodiscard]] std::string draw_before_after_svg(const TetMesh& before, const TetMesh& after, const Plane& plane,
-                                                const DrawOptions& options = {});
+                                                const DrawOptions& options = {},
+                                                std::span<const MetricMesh> pieces = {});
 
 }  // namespace temper::tets

@@ -21,10 +21,11 @@ namespace temper::tets {
 struct FaceHeight {
   std::array<VertexId, 3> vertices;
   bool boundary = false;
-  double h = 0;          ///< Height, positive inside [length]; not finite if the tetrahedron is flat
-  double h_over_l = 0;   ///< Height over the side of the equilateral triangle with the area of the face
-  bool outside = false;  ///< h ≤ 0, exact
-  bool crossed = false;  ///< The orthocenter of the face is strictly inside it, exact
+  bool at_interface = false;  ///< The face is on an interface between tensors
+  double h = 0;               ///< Height, positive inside [length]; not finite if the tetrahedron is flat
+  double h_over_l = 0;        ///< Height over the side of the equilateral triangle with the area of the face
+  bool outside = false;       ///< h ≤ 0, exact
+  bool crossed = false;       ///< The orthocenter of the face is strictly inside it, exact
 };
 
 [[nodiscard]] const ReportTable& table_of(const FaceHeight*);
@@ -34,6 +35,7 @@ enum class Cure {
   weights,         ///< find_weights(): weights of the whole mesh exist
   optimize,        ///< optimize(), in which vertices inside may move
   split_boundary,  ///< optimize() with new vertices on the boundary
+  slide,           ///< optimize() with vertices that slide on the boundary and on interfaces between tensors
 };
 [[nodiscard]] std::string_view name(Cure cure);
 [[nodiscard]] std::span<const std::string_view> words_of(Cure);
@@ -42,7 +44,7 @@ enum class Cure {
 struct Reason : WorstTet {
   Vec3 orthocenter;  ///< Not finite if the tetrahedron is flat
   std::array<FaceHeight, 4> faces;
-  bool all_on_boundary = false;  ///< All corners are on the boundary
+  bool all_on_boundary = false;  ///< All corners are on the boundary, or on interfaces between tensors
   Cure cure = Cure::optimize;
 };
 
@@ -56,6 +58,7 @@ struct Explanation {
   Quality quality;  ///< Quality of the whole mesh, without its list of the worst tetrahedra
   std::size_t bad = 0;
   std::size_t all_on_boundary = 0;      ///< Number of bad tetrahedra with all corners on the boundary
+  bool has_interfaces = false;          ///< Tensors differ
   std::optional<WeightReport> weights;  ///< Weights of the whole mesh, or the proof that none exist, if searched for
   std::vector<Reason> reasons;          ///< Reasons, worst first
 
@@ -75,6 +78,10 @@ struct ExplanationReport {
 /// Explains each tetrahedron that is not well-centered. Signs rest on exact predicates, and a verdict on
 /// check_certificate(). It fails as find_weights() does. O(n), and a linear program of the whole mesh.
 [[nodiscard]] Expected<Explanation> explain(const TetMesh& mesh, LpSolver& solver, const ExplainOptions& options = {});
+/// The same in the spaces of several tensors: weights must keep the equations of interfaces. Numbers and places are
+/// those of `pieces.mesh`.
+[[nodiscard]] Expected<Explanation> explain(const MetricMesh& pieces, LpSolver& solver,
+                                            const ExplainOptions& options = {});
 
 /// Explains the worst violations of a criterion of duals, at most `most`. For a negative coefficient it names the
 /// face with the largest part. Precondition: the criterion is not well_centered. O(n).

@@ -91,7 +91,7 @@ std::vector<CutTet> cut(const TetMesh& mesh, const Plane& plane) {
   return pieces;
 }
 
-Section section_of(const TetMesh& mesh, const Plane& plane) {
+Section section_of(const TetMesh& mesh, const Plane& plane, const TetMesh& measured) {
   const std::vector<CutTet> pieces = cut(mesh, plane);
   Section section;
   section.scale = kTetMargins;
@@ -101,7 +101,7 @@ Section section_of(const TetMesh& mesh, const Plane& plane) {
   section.where = std::string("tetrahedra bad at ") + kAxes[static_cast<std::size_t>(plane.axis)] + " = " + at.data();
   section.pieces.reserve(pieces.size());
   for (const CutTet& piece : pieces) {
-    const TetMeasure measure = measure_tetrahedron(mesh.points(piece.tetrahedron));
+    const TetMeasure measure = measure_tetrahedron(measured.points(piece.tetrahedron));
     std::vector<Section::Side> sides;
     for (const HalffaceId h : piece.faces) {
       sides.push_back(!mesh.is_face_representative(h) ? Section::Side::none
@@ -138,14 +138,16 @@ Expected<Plane> plane_through(const TetMesh& mesh, int axis, double at) {
                         rounded(middle_plane(mesh, axis).at, 9)};
 }
 
-std::string draw_svg(const TetMesh& mesh, const Plane& plane, const DrawOptions& options) {
-  const std::array<Section, 1> sections = {section_of(mesh, plane)};
+std::string draw_svg(const TetMesh& mesh, const Plane& plane, const DrawOptions& options,
+                     std::span<const MetricMesh> pieces) {
+  const std::array<Section, 1> sections = {section_of(mesh, plane, pieces.empty() ? mesh : pieces[0].mesh)};
   return draw_sections_svg(sections, options);
 }
 
 std::string draw_before_after_svg(const TetMesh& before, const TetMesh& after, const Plane& plane,
-                                  const DrawOptions& options) {
-  std::array<Section, 2> sections = {section_of(before, plane), section_of(after, plane)};
+                                  const DrawOptions& options, std::span<const MetricMesh> pieces) {
+  std::array<Section, 2> sections = {section_of(before, plane, pieces.empty() ? before : pieces[0].mesh),
+                                     section_of(after, plane, pieces.empty() ? after : pieces[1].mesh)};
   sections[0].name = "before";
   sections[1].name = "after";
   return draw_sections_svg(sections, options);

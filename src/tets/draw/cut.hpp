@@ -24,7 +24,10 @@ struct CutTet {
 /// corners: its sides are that edge, once in each of two faces.
 [[nodiscard]] std::vector<CutTet> cut(const TetMesh& mesh, const Plane& plane);
 
-/// The cut as a picture shows it.
-[[nodiscard]] Section section_of(const TetMesh& mesh, const Plane& plane);
+/// The cut as a picture shows it, with the margins of `measured`: the mesh, or the same tetrahedra in other spaces.
+[[nodiscard]] Section section_of(const TetMesh& mesh, const Plane& plane, const TetMesh& measured);
+[[nodiscard]] inline Section section_of(const TetMesh& mesh, const Plane& plane) {
+  return section_of(mesh, plane, mesh);
+}
 
 }  // namespace temper::tets

@@ -23,6 +23,22 @@ FaceHeight height_over(const TetMesh& mesh, HalffaceId h) {
   return face;
 }
 
+/// Says of each face if it is on an interface. Such faces are on the boundary of their piece.
+void mark_interfaces(const MetricMesh& pieces, Explanation& explanation) {
+  std::vector<std::array<VertexId, 3>> faces;
+  for (const SeamFace& seam : seams_of(pieces)) {
+    faces.push_back(pieces.mesh.vertices(seam.one));
+    faces.push_back(pieces.mesh.vertices(seam.other));
+  }
+  std::sort(faces.begin(), faces.end());
+  for (Reason& reason : explanation.reasons) {
+    for (FaceHeight& face : reason.faces) {
+      face.at_interface = std::binary_search(faces.begin(), faces.end(), face.vertices);
+      face.boundary = face.boundary && !face.at_interface;
+    }
+  }
+}
+
 bool all_marked(std::span<const VertexId> vertices, const IdVector<VertexId, std::uint8_t>& marks) {
   return std::all_of(vertices.begin(), vertices.end(), [&](VertexId v) { return marks[v] != 0; });
 }
@@ -37,18 +53,26 @@ std::string_view name(Cure cure) {
       return "optimize";
     case Cure::split_boundary:
       return "split_boundary";
+    case Cure::slide:
+      return "slide";
   }
   return "";
 }
 
 Cure Explanation::cure(bool all_corners_on_boundary) const {
   if (verdict() == Feasibility::feasible) return Cure::weights;
-  return all_corners_on_boundary ? Cure::split_boundary : Cure::optimize;
+  if (!all_corners_on_boundary) return Cure::optimize;
+  return has_interfaces ? Cure::slide : Cure::split_boundary;
 }
 
-Expected<Explanation> explain(const TetMesh& mesh, LpSolver& solver, const ExplainOptions& options) {
+namespace {
+
+/// `pieces`: null, or what has this mesh.
+Expected<Explanation> explained(const TetMesh& mesh, const MetricMesh* pieces, LpSolver& solver,
+                                const ExplainOptions& options) {
   const auto on_boundary = boundary_vertices(mesh);
   Explanation result;
+  result.has_interfaces = pieces != nullptr;
   for (const TetId t : mesh.tetrahedra()) {
     if (measure_tetrahedron(mesh.points(t)).orthocenter_inside()) continue;
     ++result.bad;
@@ -57,7 +81,8 @@ Expected<Explanation> explain(const TetMesh& mesh, LpSolver& solver, const Expla
   if (result.bad > 0 && (mesh.n_tetrahedra() <= options.whole || result.bad <= options.whole)) {
     WeightOptions best;
     best.goal = WeightGoal::margin;
-    Expected<WeightReport> weights = find_weights(mesh, solver, best);
+    Expected<WeightReport> weights =
+        pieces != nullptr ? find_weights(*pieces, solver, best) : find_weights(mesh, solver, best);
     if (!weights) return weights.error();
     result.weights = *std::move(weights);
   }
@@ -72,7 +97,18 @@ Expected<Explanation> explain(const TetMesh& mesh, LpSolver& solver, const Expla
     reason.all_on_boundary = all_marked(reason.vertices, on_boundary);
     reason.cure = result.cure(reason.all_on_boundary);
   }
+  if (pieces != nullptr) mark_interfaces(*pieces, result);
   return result;
+}
+
+}  // namespace
+
+Expected<Explanation> explain(const TetMesh& mesh, LpSolver& solver, const ExplainOptions& options) {
+  return explained(mesh, nullptr, solver, options);
+}
+
+Expected<Explanation> explain(const MetricMesh& pieces, LpSolver& solver, const ExplainOptions& options) {
+  return explained(pieces.mesh, pieces.is_cut() ? &pieces : nullptr, solver, options);
 }
 
 }  // namespace temper::tets

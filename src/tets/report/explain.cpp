@@ -43,7 +43,8 @@ const ReportTable& table_of(const ReasonReport*) {
        {"dihedral_deg", "Largest of its dihedral angles", "degrees", of(&Reason::dihedral_deg)},
        {"faces", "Its faces", "",
         [](const R& r) { return std::vector<FaceHeight>(r.reason.faces.begin(), r.reason.faces.end()); }},
-       {"all_on_boundary", "All corners are on the boundary", "", of(&Reason::all_on_boundary)},
+       {"all_on_boundary", "All corners are on the boundary, or on interfaces between tensors", "",
+        of(&Reason::all_on_boundary)},
        {"text", "The reason in words", "", [](const R& r) { return NumberedText{r.reason.why}; }},
        {"cure", "The change that may cure it; it is not tried", "", of(&Reason::cure), ShownIn::libraries}});
   return table;
@@ -52,8 +53,8 @@ const ReportTable& table_of(const ReasonReport*) {
 }  // namespace
 
 std::span<const std::string_view> words_of(Cure) {
-  static const std::array<std::string_view, 3> words = {name(Cure::weights), name(Cure::optimize),
-                                                        name(Cure::split_boundary)};
+  static const std::array<std::string_view, 4> words = {name(Cure::weights), name(Cure::optimize),
+                                                        name(Cure::split_boundary), name(Cure::slide)};
   return words;
 }
 
@@ -63,6 +64,7 @@ const ReportTable& table_of(const FaceHeight*) {
       report_table<F>("FaceHeight", "The height of the orthocenter of a tetrahedron over one of its faces.",
                       {{"vertices", "Vertices of the face", "", &F::vertices},
                        {"boundary", "The face is on the boundary", "", &F::boundary},
+                       {"at_interface", "The face is on an interface between tensors", "", &F::at_interface},
                        {"h", "Signed height, positive inside", "length", &F::h},
                        {"h_over_l", "The height over the length of the face", "", &F::h_over_l},
                        {"outside", "h ≤ 0, exact", "", &F::outside},

@@ -13,11 +13,18 @@ namespace {
 
 const std::string kOne = "1,0,0,1,0,0.1", kOther = "3,0,0,3,0,30";
 
+std::string spelled(const Tensor3& k) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const double c : k.components()) text << (text.tellp() > 0 ? "," : "") << c;
+  return text.str();
+}
+
 class Tensors : public Workshop {
  protected:
   /// Writes the layers, with cell data of these names.
-  static void make_layers(const std::vector<io::DataArray>& data = {}) {
-    const tets::TetMesh mesh = two_layers(4, 0.1, 0, kSixTets);
+  static void make_layers(const std::vector<io::DataArray>& data = {}, const CubeCut& cut = kSixTets) {
+    const tets::TetMesh mesh = two_layers(4, 0.1, 0, cut);
     io::MeshFile file;
     std::vector<Vec3> points;
     for (const VertexId v : mesh.vertices()) points.push_back(mesh.position(v));
@@ -74,6 +81,49 @@ TEST_F(Tensors, OfRegionsMakeTetrahedraWellCenteredAndFilesHoldTheWeights) {
   EXPECT_EQ(with({"check", "weighted.vtu"}).err, "");
   const Outcome uneven = temper_ok({"check", "in.vtu", "--tensor", "1=" + kOne, "--tensor", "2=1,0.5,0,4,0,1"});
   EXPECT_TRUE(contains(uneven.err, "the metrics of the tensors differ within its faces")) << uneven.err;
+}
+
+TEST_F(Tensors, CertificatesNameCopiesAndAreCheckedWithTheTensors) {
+  make_layers({}, kFiveTets);
+  write(
+      "rock.poly",
+      "6 2 0 0\n0 0 0\n1 1 0\n2 1 0.6\n3 1 1\n4 0 1\n5 0 0.4\n7 0\n0 0 1\n1 1 2\n2 2 3\n3 3 4\n4 4 5\n5 5 0\n6 5 2\n0\n"
+      "2\n0 0.5 0.1 1\n1 0.5 0.9 2\n");
+  temper_ok({"mesh", "rock.poly", "-o", "rock.vtu", "--size", "0.2"});
+  struct Case {
+    std::string path;
+    std::vector<std::string> tensors, others;
+  };
+  const std::vector<Case> cases = {
+      {"in.vtu", {"--tensor", "1=" + spelled(kLower), "--tensor", "2=" + spelled(kUpper)}, {"--tensor", "1,0,0,1,0,1"}},
+      {"rock.vtu", {"--tensor", "1=1,0,4", "--tensor", "2=3,1,2"}, {"--tensor", "1,0,1"}}};
+  for (const auto& [path, tensors, others] : cases) {
+    const auto run = [&](std::vector<std::string> words, const std::vector<std::string>& with) {
+      words.insert(words.end(), with.begin(), with.end());
+      return temper(words);
+    };
+    const Outcome outcome = run({"weights", path, "--mode", "margin", "--json", "--certificate", "why.json"}, tensors);
+    EXPECT_EQ(outcome.exit, 6) << outcome.err;
+    const auto proof = nlohmann::json::parse(read("why.json"));
+    EXPECT_EQ(nlohmann::json::parse(outcome.out).at("certificate"), proof);
+    const Outcome checked = run({"weights", path, "--check-certificate", "why.json"}, tensors);
+    EXPECT_EQ(checked.exit, 0) << checked.err;
+    EXPECT_TRUE(contains(checked.out, "proves it for " + path)) << checked.out;
+    EXPECT_EQ(run({"weights", path, "--check-certificate", "why.json"}, others).exit, 1);
+    const auto reasons = nlohmann::json::parse(run({"explain", path, "--json"}, tensors).out).at("reasons");
+    ASSERT_FALSE(reasons.empty());
+    temper_ok([&] {
+      std::vector<std::string> words = {"draw", path, "-o", "picture.svg"};
+      words.insert(words.end(), tensors.begin(), tensors.end());
+      return words;
+    }());
+    if (path == "in.vtu") continue;
+    for (const auto& reason : reasons) {
+      if (reason.at("certificate").is_null()) continue;
+      write("reason.json", reason.at("certificate").dump());
+      EXPECT_EQ(run({"weights", path, "--check-certificate", "reason.json"}, tensors).exit, 0) << reason;
+    }
+  }
 }
 
 TEST_F(Tensors, ComeFromRegionsDataAndAnglesAlike) {

@@ -96,7 +96,8 @@ TEST(CrossingConflict, OfAFanIsThereJustWhenTheProgramFindsOne) {
   std::size_t feasible = 0, large = 0;
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     const Mesh mesh = random_fan(seed, 3 + static_cast<int>(seed % 3));
-    const auto found = find_conflict(mesh, all_triangles(mesh), TriangleId(), *solver);
+    const TriangleDemand demand(mesh, Constraints::well_centered);
+    const auto found = find_conflict({mesh, demand}, all_triangles(mesh), TriangleId(), *solver);
     if (!found) {
       EXPECT_FALSE(crossing_conflict(mesh, all_triangles(mesh))) << seed;
       ++feasible;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "support/tet_lattice.hpp"
+#include "support/tet_layers.hpp"
 #include "temper/tets/quality.hpp"
 #include "tets/draw/cut.hpp"
 #include "unit/draw/svg_reading.hpp"
@@ -81,6 +82,26 @@ TEST(TetCut, PiecesOfNeighborsHaveASideInCommonWhichIsDrawnOnce) {
       drawn += piece.sides.size() - static_cast<std::size_t>(std::ranges::count(piece.sides, Section::Side::none));
     EXPECT_EQ(drawn, sides.size() - shared / 2);
   }
+}
+
+TEST(TetCut, WithTensorsPiecesStayAndMarginsAreThoseOfTheMetrics) {
+  const TetMesh mesh = test::two_layers(4, 0.1, 0);
+  const MetricMesh pieces = test::pieces_of(mesh, test::kLower, test::kUpper);
+  const Plane plane = {0, 1.3};
+  const Section plain = section_of(mesh, plane), there = section_of(mesh, plane, pieces.mesh);
+  ASSERT_EQ(plain.pieces.size(), there.pieces.size());
+  const std::vector<CutTet> cuts = cut(mesh, plane);
+  std::size_t bad = 0, others = 0;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    EXPECT_EQ(plain.pieces[i].corners, there.pieces[i].corners);
+    const TetId t = cuts[i].tetrahedron;
+    EXPECT_EQ(there.pieces[i].bad, !tetrahedron_quality(pieces.mesh.points(t)).well_centered);
+    bad += there.pieces[i].bad ? 1 : 0;
+    others += there.pieces[i].bad != plain.pieces[i].bad ? 1 : 0;
+  }
+  EXPECT_GT(bad, 0U);
+  EXPECT_GT(others, 0U);
+  EXPECT_NE(draw_svg(mesh, plane, {}, {&pieces, 1}), draw_svg(mesh, plane));
 }
 
 TEST(TetCut, TheOutlineAndLinesBetweenRegionsAreThickerInPlanesThroughVerticesToo) {

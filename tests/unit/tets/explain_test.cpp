@@ -9,6 +9,7 @@
 
 #include "base/rng.hpp"
 #include "support/tet_lattice.hpp"
+#include "support/tet_layers.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/tets/geometry.hpp"
 
@@ -62,6 +63,31 @@ TEST(TetExplanation, NamesTheCureThatTheVerdictAllows) {
   EXPECT_EQ(unknown->cure(true), Cure::split_boundary);
   EXPECT_EQ(known->cure(true), known->verdict() == Feasibility::feasible ? Cure::weights : Cure::split_boundary);
   for (const Reason& reason : known->reasons) EXPECT_EQ(reason.cure, known->cure(reason.all_on_boundary));
+}
+
+TEST(TetExplanation, KnowsTheEquationsOfInterfacesBetweenTensors) {
+  const auto solver = clp_solver();
+  const MetricMesh pieces = test::pieces_of(test::two_layers(4, 0.1, 0), test::kLower, test::kUpper);
+  const auto why = explain(pieces, *solver), alone = explain(pieces.mesh, *solver);
+  ASSERT_TRUE(why && alone);
+  EXPECT_EQ(why->bad, alone->bad);
+  ASSERT_TRUE(why->weights);
+  EXPECT_EQ(why->weights->margin, find_weights(pieces, *solver, {.goal = WeightGoal::margin})->margin);
+  EXPECT_EQ(why->cure(true), Cure::slide);
+  std::size_t at_interface = 0;
+  for (std::size_t i = 0; i < why->reasons.size(); ++i) {
+    for (std::size_t f = 0; f < 4; ++f) {
+      const FaceHeight &face = why->reasons[i].faces[f], &face_alone = alone->reasons[i].faces[f];
+      EXPECT_EQ(face_alone.boundary, face.boundary || face.at_interface);
+      EXPECT_FALSE(face.boundary && face.at_interface);
+      if (!face.at_interface) continue;
+      ++at_interface;
+      // The layers meet at z = 2.
+      const Metric& metric = pieces.metric(why->reasons[i].tetrahedron);
+      for (const VertexId v : face.vertices) EXPECT_NEAR(metric.from_metric(pieces.mesh.position(v)).z, 2, 1e-12);
+    }
+  }
+  EXPECT_GT(at_interface, 0U);
 }
 
 }  // namespace

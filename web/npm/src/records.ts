@@ -372,7 +372,7 @@ export interface EdgeConflict {
 /** A change that would cure a reason. */
 export interface Cure {
   /** Kind of the change. */
-  action: 'find_weights' | 'optimize' | 'move_vertex' | 'flip_edge' | 'insert_vertex' | 'split_edge' | 'split_boundary';
+  action: 'find_weights' | 'optimize' | 'move_vertex' | 'flip_edge' | 'insert_vertex' | 'split_edge' | 'split_boundary' | 'split_interface';
   /** Edge that is flipped or split. */
   edge: [number, number] | null;
   /** Vertex that is moved. */
@@ -402,7 +402,7 @@ export interface Cure {
 /** A reason why triangles are not well-centered. */
 export interface Reason {
   /** Kind of the reason. */
-  kind: 'split' | 'edge' | 'fan' | 'patch' | 'weights' | 'undecided';
+  kind: 'split' | 'edge' | 'fan' | 'patch' | 'interface' | 'weights' | 'undecided';
   /** Centroid of the worst triangle; on the sphere longitude and latitude [degrees]. */
   at: [number, number];
   /** Triangles that are not well-centered for this reason, worst first. */
@@ -425,7 +425,7 @@ export interface Reason {
   center: FanCenter | null;
   /** Conflict of the edge, for split. */
   must_split: EdgeConflict | null;
-  /** Proof for edge, fan, patch; `check_certificate` accepts it. */
+  /** Proof for edge, fan, patch, interface; `check_certificate` accepts it. */
   certificate: Certificate;
   /** Cures were searched for; else `cures` has only those that need no search. */
   cures_searched: boolean;
