@@ -12,6 +12,7 @@
 #include "mesh/input_check.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "mesh/predicates.hpp"
+#include "mesh/shared_steps.hpp"
 #include "mesh/stoppable_build.hpp"
 #include "mesh/twins.hpp"
 #include "temper/mesh.hpp"
@@ -56,7 +57,51 @@ std::string why_flat(const NamedInput& input, const std::array<std::int32_t, 3>&
          (input.on_sphere() ? " are on one great circle" : " are collinear");
 }
 
+VertexId id_of(std::int32_t i) { return VertexId(static_cast<std::size_t>(i)); }
+
 }  // namespace
+
+std::optional<InputError> constrain_edges(Mesh& mesh, const NamedInput& input) {
+  for (const auto& [a, b] : input.in.constrained_edges) {
+    for (const std::int32_t i : {a, b}) {
+      if (!input.is_point(i)) {
+        return InputError{ErrorCode::index_out_of_range,
+                          {},
+                          "a constrained edge uses point index " + std::to_string(i) + ", but there are " +
+                              quantity(input.n_points(), "points")};
+      }
+    }
+    HalfedgeId h = mesh.find_halfedge(id_of(a), id_of(b));
+    if (!h.valid()) h = mesh.find_halfedge(id_of(b), id_of(a));
+    if (!h.valid()) {
+      return input.point_error(ErrorCode::missing_edge, static_cast<std::size_t>(a),
+                               "the constrained edge from " + input.names.point(static_cast<std::size_t>(a)) + " to " +
+                                   input.names.point(static_cast<std::size_t>(b)) + " is no edge of the mesh");
+    }
+    mesh.set_constrained(h, true);
+  }
+  if (input.in.regions.empty()) return std::nullopt;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    const HalfedgeId other = mesh.twin(h);
+    if (other.valid() && mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(other))) {
+      mesh.set_constrained(h, true);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<InputError> fix_vertices(Mesh& mesh, const NamedInput& input) {
+  for (const std::int32_t i : input.in.fixed_vertices) {
+    if (!input.is_point(i)) {
+      return InputError{
+          ErrorCode::index_out_of_range,
+          {},
+          "a fixed vertex has index " + std::to_string(i) + ", but there are " + quantity(input.n_points(), "points")};
+    }
+    mesh.set_fixed(id_of(i), true);
+  }
+  return std::nullopt;
+}
 
 /// The steps of Mesh::build, in order. Each returns an error or nothing.
 class MeshBuilder {
@@ -244,47 +289,8 @@ class MeshBuilder {
     return input_.triangle_error(ErrorCode::overlap, overlap->triangle.index, overlap->message);
   }
 
-  std::optional<InputError> constrain_edges() {
-    for (const auto& [a, b] : in_.constrained_edges) {
-      for (const std::int32_t i : {a, b}) {
-        if (!input_.is_point(i)) {
-          return InputError{ErrorCode::index_out_of_range,
-                            {},
-                            "a constrained edge uses point index " + std::to_string(i) + ", but there are " +
-                                quantity(input_.n_points(), "points")};
-        }
-      }
-      HalfedgeId h = mesh_.find_halfedge(id(a), id(b));
-      if (!h.valid()) h = mesh_.find_halfedge(id(b), id(a));
-      if (!h.valid()) {
-        return input_.point_error(ErrorCode::missing_edge, static_cast<std::size_t>(a),
-                                  "the constrained edge from " + names_.point(static_cast<std::size_t>(a)) + " to " +
-                                      names_.point(static_cast<std::size_t>(b)) + " is no edge of the mesh");
-      }
-      mesh_.set_constrained(h, true);
-    }
-    if (mesh_.regions_.all_zero()) return std::nullopt;
-    for (const HalfedgeId h : mesh_.halfedges()) {
-      const HalfedgeId other = mesh_.twin(h);
-      if (other.valid() && mesh_.region(Mesh::triangle(h)) != mesh_.region(Mesh::triangle(other))) {
-        mesh_.set_constrained(h, true);
-      }
-    }
-    return std::nullopt;
-  }
-
-  std::optional<InputError> fix_vertices() {
-    for (const std::int32_t i : in_.fixed_vertices) {
-      if (!input_.is_point(i)) {
-        return InputError{ErrorCode::index_out_of_range,
-                          {},
-                          "a fixed vertex has index " + std::to_string(i) + ", but there are " +
-                              quantity(input_.n_points(), "points")};
-      }
-      mesh_.set_fixed(id(i), true);
-    }
-    return std::nullopt;
-  }
+  std::optional<InputError> constrain_edges() { return temper::constrain_edges(mesh_, input_); }
+  std::optional<InputError> fix_vertices() { return temper::fix_vertices(mesh_, input_); }
 
   static VertexId id(std::int32_t i) { return VertexId(static_cast<std::size_t>(i)); }
 

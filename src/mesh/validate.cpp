@@ -3,6 +3,7 @@
 #include <string>
 
 #include "mesh/predicates.hpp"
+#include "mesh/shared_steps.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -39,8 +40,8 @@ std::optional<std::string> wrong_star(const Mesh& mesh, VertexId v, std::size_t 
   return std::nullopt;
 }
 
-/// The first error in ids, twins, stars and flags, or a point that is not finite; nothing when all is right. Triangles
-/// may be inverted. Precondition: the arrays have lengths that fit. O(n).
+}  // namespace
+
 std::optional<std::string> broken_connectivity(const Mesh& mesh) {
   IdVector<VertexId, std::uint32_t> incident(mesh.n_vertices(), 0);
   bool any_erased = false;
@@ -60,8 +61,6 @@ std::optional<std::string> broken_connectivity(const Mesh& mesh) {
   }
   return std::nullopt;
 }
-
-}  // namespace
 
 std::optional<std::string> Mesh::validate() const {
   if (corners_.size() % 3 != 0 || twins_.size() != corners_.size() || !constrained_.has_size(n_halfedges()) ||

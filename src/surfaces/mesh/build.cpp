@@ -10,6 +10,7 @@
 #include "mesh/exact_range.hpp"
 #include "mesh/input_check.hpp"
 #include "mesh/mesh_editor.hpp"
+#include "mesh/shared_steps.hpp"
 #include "mesh/twins.hpp"
 #include "temper/surfaces.hpp"
 
@@ -205,44 +206,8 @@ class SurfaceBuilder {
     return std::nullopt;
   }
 
-  std::optional<InputError> constrain_edges() {
-    for (const auto& [a, b] : in_.constrained_edges) {
-      if (!input_.is_point(a) || !input_.is_point(b)) {
-        return InputError{ErrorCode::index_out_of_range,
-                          {},
-                          "a constrained edge uses point index " + std::to_string(input_.is_point(a) ? b : a) +
-                              ", but there are " + quantity(input_.n_points(), "points")};
-      }
-      HalfedgeId h = mesh_.find_halfedge(id(a), id(b));
-      if (!h.valid()) h = mesh_.find_halfedge(id(b), id(a));
-      if (!h.valid()) {
-        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-        return input_.point_error(
-            ErrorCode::missing_edge, i,
-            "the constrained edge from " + names_.point(i) + " to " + names_.point(j) + " is no edge of the mesh");
-      }
-      mesh_.set_constrained(h, true);
-    }
-    for (const HalfedgeId h : mesh_.halfedges()) {
-      const HalfedgeId other = mesh_.twin(h);
-      if (other.valid() && mesh_.region(Mesh::triangle(h)) != mesh_.region(Mesh::triangle(other)))
-        mesh_.set_constrained(h, true);
-    }
-    return std::nullopt;
-  }
-
-  std::optional<InputError> fix_vertices() {
-    for (const std::int32_t i : in_.fixed_vertices) {
-      if (!input_.is_point(i)) {
-        return InputError{ErrorCode::index_out_of_range,
-                          {},
-                          "a fixed vertex has index " + std::to_string(i) + ", but there are " +
-                              quantity(input_.n_points(), "points")};
-      }
-      mesh_.set_fixed(id(i), true);
-    }
-    return std::nullopt;
-  }
+  std::optional<InputError> constrain_edges() { return temper::constrain_edges(mesh_, input_); }
+  std::optional<InputError> fix_vertices() { return temper::fix_vertices(mesh_, input_); }
 
   std::optional<InputError> count_coincident() {
     std::vector<std::array<double, 3>> places;
