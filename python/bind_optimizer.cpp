@@ -52,9 +52,10 @@ void check_optimizer(const py::dict& options, bool is_of_tets) {
 
 /// The mesh gets its new state. An exception of the observer is raised after that.
 py::tuple update_mesh(PyMesh& self, const py::dict& options, const py::dict& waiting, const py::object& threads,
-                      const py::object& observer) {
+                      const py::object& observer, const py::object& size_field) {
   auto optimizer = or_raise(Optimizer::make(*self.read(), options_from(options)));
   take_changes(optimizer, waiting);
+  if (!size_field.is_none()) optimizer.resize(size_field.cast<SizeField>());
   Visitor visitor;
   OptimizeHooks hooks;
   hooks.observer = observer_of(visitor, observer);

@@ -13,11 +13,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "temper/detail/error.hpp"
 #include "temper/detail/ids.hpp"
+#include "temper/detail/size.hpp"
 #include "temper/detail/vec.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
@@ -43,8 +46,11 @@ struct WaitingChanges {
   std::vector<std::pair<VertexId, double>> weighed;
   std::vector<VertexId> removed;
   std::vector<Vec3> inserted;
+  std::optional<SizeField> sizes;
 
-  [[nodiscard]] bool empty() const { return moved.empty() && weighed.empty() && removed.empty() && inserted.empty(); }
+  [[nodiscard]] bool empty() const {
+    return moved.empty() && weighed.empty() && removed.empty() && inserted.empty() && !sizes;
+  }
 };
 
 /// The result of an update.
@@ -80,6 +86,10 @@ class OptimizerOf {
   void remove(VertexId v) { waiting_.removed.push_back(v); }
   /// Inserts a vertex. After the update new vertices are the last ones, in the order of these calls.
   void insert(Vec3 place) { waiting_.inserted.push_back(place); }
+  /// Gives the mesh the sizes of a field. Where vertices are more than twice as dense as the field says, some are
+  /// removed. Where they are less than half as dense, vertices are inserted, after those of insert(). Lines and the
+  /// boundary keep their shape, and fixed vertices stay.
+  void resize(SizeField field) requires std::is_same_v<MeshOf, Mesh> { waiting_.sizes = std::move(field); }
   /// Forgets the changes that wait.
   void forget() { waiting_ = {}; }
 
@@ -87,8 +97,8 @@ class OptimizerOf {
   /// violates the criterion. A mesh that needs nothing costs one check.
   ///
   /// Errors name the vertex, by `names`: a number that the mesh has not; a place that is not finite, outside the mesh,
-  /// or behind its boundary or a line; a vertex that cannot be removed. The mesh then stays as it was, and all changes
-  /// still wait.
+  /// or behind its boundary or a line; a vertex that cannot be removed; a size field of another space. The mesh then
+  /// stays as it was, and all changes still wait.
   [[nodiscard]] Expected<Update> update(const Hooks& hooks = {}, const InputNames* names = nullptr);
 
  private:

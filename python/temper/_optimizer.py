@@ -17,6 +17,7 @@ from ._progress import Line
 from ._records import Record, expect
 from ._reports import OptimizeReport, Progress
 from ._tets import TetMesh
+from .size import SizeField
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -116,6 +117,7 @@ class Optimizer:
         _temper.check_cells(self._options, target, _words(keep), rows_set(options, changes), is_of_tets)
         _temper.check_optimizer(self._options, is_of_tets)
         self._waiting: dict[str, list[npt.NDArray[Any]]] = {}
+        self._size_field: SizeField | None = None
         self.forget()
 
     def move(self, vertices: npt.ArrayLike, points: npt.ArrayLike) -> None:
@@ -137,8 +139,24 @@ class Optimizer:
         """Inserts vertices at points (k, d) [length]. After the update they are the last ones, in this order."""
         self._waiting["inserted"].append(self._places(points))
 
+    def resize(self, size_field: SizeField) -> None:
+        """Gives a mesh of triangles the sizes of a field, by the least change. Where vertices are more than twice as
+        dense as the field says, some are removed. Where they are less than half as dense, vertices are inserted, after
+        those of ``insert``. Elsewhere nothing changes. Lines and the boundary keep their shape, and fixed vertices
+        stay. ``temper.SizeField.from_values(mesh, sizes)`` makes a field from lengths at the vertices.
+
+        Raises
+        ------
+        TypeError
+            A mesh of tetrahedra, or no ``SizeField``.
+        """
+        if isinstance(self.mesh, TetMesh):
+            raise TypeError("resize is for triangles alone. Next: insert and remove vertices")
+        self._size_field = expect("size_field", size_field, SizeField)
+
     def forget(self) -> None:
         """Forgets the changes that wait."""
+        self._size_field = None
         empty = {"moved": 0, "places": 3, "weighed": 0, "weights": 0, "removed": 0, "inserted": 3}
         self._waiting = {
             name: [np.empty((0, columns) if columns else 0, dtype=np.int64 if name in ("moved", "weighed", "removed") else np.float64)]
@@ -146,8 +164,8 @@ class Optimizer:
         }
 
     def update(self, *, progress: Union[bool, Callable[[Progress], Any], None] = False) -> Update:
-        """Makes the changes that wait: moves, then weights, then removals, then insertions. Then makes the mesh good by
-        the least change. A mesh that needs nothing costs one check.
+        """Makes the changes that wait: moves, then weights, then removals, then insertions, then sizes. Then makes the
+        mesh good by the least change. A mesh that needs nothing costs one check.
 
         Weights that would hide a vertex change. Data follow ``Mesh.point_data_rules`` and
         ``Mesh.cell_data_rules``.
@@ -161,8 +179,8 @@ class Optimizer:
         ------
         TemperError
             A vertex is not in the mesh, or cannot be removed. A place is not finite, is outside the mesh, or is behind
-            its boundary or a line. A tetrahedron would turn over. The mesh stays as it was, and all changes still
-            wait. ``forget`` drops them.
+            its boundary or a line. A tetrahedron would turn over. A size field lies in another space. The mesh stays as
+            it was, and all changes still wait. ``forget`` drops them.
         KeyboardInterrupt
             Ctrl-C stopped the update. The mesh has its changes, and is as good as it was by then.
 
@@ -178,7 +196,8 @@ class Optimizer:
             if isinstance(self.mesh, TetMesh):
                 report, difference = _temper.tet_update(self.mesh._handle, *rest)
             else:
-                report, difference = _temper.update(self.mesh._handle, *rest)
+                field = None if self._size_field is None else self._size_field._handle
+                report, difference = _temper.update(self.mesh._handle, *rest, field)
         finally:
             line.clear()
         self.forget()

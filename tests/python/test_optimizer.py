@@ -254,3 +254,35 @@ def test_other_surfaces(make):
         update = optimizer.update()
         assert update.report.bad_after == 0
         assert mesh.validate() is None
+
+
+def test_a_size_field_moves_through_a_mesh():
+    mesh = plane()
+    coarse = 1.2 * np.median(temper.size.local_size(mesh))
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    optimizer = temper.Optimizer(mesh)
+    for step in range(4):
+        center = low + (high - low) * (0.2 + 0.2 * step, 0.5)
+        sizes = np.minimum(coarse, 0.4 * coarse + 0.3 * np.linalg.norm(mesh.points - center, axis=1))
+        field = temper.SizeField.from_values(mesh, sizes)
+        optimizer.resize(field)
+        before = mesh.copy()
+        update = optimizer.update()
+        assert is_good(mesh) and mesh.validate() is None
+        over = temper.size.measure_size(mesh, field).over_field
+        assert over.p05 > 1 / np.sqrt(2) and over.p95 < np.sqrt(2)
+        old = update.vertices >= 0
+        assert 0 < old.sum() < before.n_vertices and not old.all()
+        stayed = np.setdiff1d(np.flatnonzero(old), update.moved)
+        assert np.array_equal(mesh.points[stayed], before.points[update.vertices[stayed]])
+        far = np.linalg.norm(mesh.points - center, axis=1) > 0.5 * np.linalg.norm(high - low)
+        assert np.isin(np.flatnonzero(far), update.rows).mean() < 0.7 or step == 0
+    with pytest.raises(TypeError, match="size_field: expected a SizeField, found float"):
+        optimizer.resize(0.1)
+    with pytest.raises(TypeError, match="triangles alone"):
+        temper.Optimizer(cube(2)).resize(field)
+    optimizer.resize(temper.size.input_size_field(temper.generate.random_sphere(50)))
+    with pytest.raises(temper.TemperError, match="another space"):
+        optimizer.update()
+    optimizer.forget()
+    assert len(optimizer.update().rows) == 0

@@ -17,6 +17,7 @@
 #include "base/sort_unique.hpp"
 #include "base/text.hpp"
 #include "geometry/surface.hpp"
+#include "optimize/loop/resizing.hpp"
 #include "regularity/hidden.hpp"
 #include "regularity/lawson.hpp"
 #include "temper/topology.hpp"
@@ -42,7 +43,8 @@ bool is_upright(const Mesh& mesh, VertexId v) {
 
 class Changing {
  public:
-  Changing(Mesh mesh, const InputNames* names) : mesh_(std::move(mesh)), names_(names != nullptr ? *names : from_0_) {}
+  Changing(Mesh mesh, const InputNames* names)
+      : mesh_(std::move(mesh)), n_before_(mesh_.n_vertices()), names_(names != nullptr ? *names : from_0_) {}
 
   std::optional<InputError> make(const WaitingChanges& waiting) {
     if (auto error = check(waiting)) return error;
@@ -55,16 +57,17 @@ class Changing {
     for (const Vec3 place : waiting.inserted) {
       if (auto error = insert(place)) return error;
     }
+    if (waiting.sizes) has_removed_ = resize(mesh_, *waiting.sizes, n_before_) || has_removed_;
     return std::nullopt;
   }
 
-  ChangedTriangles take(std::size_t n_before) {
+  ChangedTriangles take() {
     ChangedTriangles result;
-    const bool changes_numbers = has_removed_ || mesh_.n_vertices() > n_before;
+    const bool changes_numbers = has_removed_ || mesh_.n_vertices() > n_before_;
     if (changes_numbers) {
       result.numbers = has_removed_ ? mesh_.compact().vertices : all_vertices();
       for (VertexId& v : result.numbers) {
-        if (v.index >= n_before) v = VertexId();
+        if (v.index >= n_before_) v = VertexId();
       }
     }
     result.mesh = std::move(mesh_);
@@ -78,6 +81,11 @@ class Changing {
   [[nodiscard]] std::string shown(Vec3 place) const {
     const Vec2 p = mesh_.space().as_shown(place);
     return "(" + to_text(p.x) + ", " + to_text(p.y) + ")";
+  }
+  /// As for OptimizeOptions::size_field.
+  [[nodiscard]] bool has_space_of(const Mesh& field) const {
+    if (mesh_.space().kind() != field.space().kind()) return false;
+    return !mesh_.space().is_periodic() || mesh_.space() == field.space();
   }
   [[nodiscard]] static bool is_exact(Vec3 p) {
     return is_exact_coordinate(p.x) && is_exact_coordinate(p.y) && is_exact_coordinate(p.z);
@@ -101,6 +109,7 @@ class Changing {
   }
 
   Mesh mesh_;
+  std::size_t n_before_;
   InputNames from_0_;
   const InputNames& names_;
   Lawson lawson_;
@@ -137,6 +146,8 @@ std::optional<InputError> Changing::check(const WaitingChanges& waiting) const {
   for (const Vec3 place : waiting.inserted) {
     if (!is_exact(place)) return not_finite("a new vertex is at " + shown(place));
   }
+  if (waiting.sizes && !has_space_of(waiting.sizes->mesh()))
+    return InputError{ErrorCode::invalid_option, {}, "the size field lies in another space than the mesh"};
   return std::nullopt;
 }
 
@@ -294,9 +305,9 @@ std::optional<InputError> Changing::insert(Vec3 place) {
 
 Expected<ChangedTriangles> changed(const Mesh& mesh, const WaitingChanges& waiting, const InputNames* names) {
   Changing changing(mesh, names);
-  if (waiting.empty()) return changing.take(mesh.n_vertices());
+  if (waiting.empty()) return changing.take();
   if (auto error = changing.make(waiting)) return *std::move(error);
-  return changing.take(mesh.n_vertices());
+  return changing.take();
 }
 
 }  // namespace temper
