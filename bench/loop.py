@@ -2,9 +2,11 @@
 """Measures updates of a mesh in a loop: temper.Optimizer against a run over the whole mesh.
 
     bench/loop.py [--cells tetrahedra] [--target any,vertex,cell] [--vertices 20000] [--steps 100] [--figure loop.svg]
+    bench/loop.py --change sizes
 
 In each step one vertex of a hundred, inside the mesh, moves by up to --amount of its local size to any side, and an
-update follows. Each tenth step a whole run takes the same mesh with the same moves. A row has, over all steps: seconds
+update follows. Each tenth step a whole run takes the same mesh with the same moves. With --change sizes, vertices do not
+move. Instead a fine spot with half of the sizes moves on by a fifth of its radius. A row has, over all steps: seconds
 of the processor of an update and of a whole run, their ratio, the share of the vertices whose place or weight the update
 changed, the rows of a matrix to compute again, and the places that violate the criterion of the target. --check exits
 with 1 if a ratio of means is above 0.1, a share above 0.05, or a place violates the criterion. --threads 2 makes each
@@ -12,6 +14,7 @@ update twice, on 1 and on 2 threads, and compares bytes.
 """
 
 import argparse
+import contextlib
 import sys
 import time
 
@@ -85,6 +88,13 @@ def inner_vertices(mesh):
     return np.flatnonzero(inside)
 
 
+def deep_vertices(mesh):
+    """Vertices with no neighbor on the boundary: a small move does not take them across it."""
+    cells = mesh.triangles if isinstance(mesh, temper.Mesh) else mesh.tetrahedra
+    outer = np.setdiff1d(np.arange(mesh.n_vertices), inner_vertices(mesh))
+    return np.setdiff1d(np.arange(mesh.n_vertices), cells[np.isin(cells, outer).any(axis=1)])
+
+
 def violations(mesh, target):
     """Places that violate the criterion of the target, by the report of quality()."""
     q = temper.quality(mesh)
@@ -107,6 +117,23 @@ def seconds_of(call):
     return time.process_time() - start, result
 
 
+def moves(mesh, arguments, rng, inside):
+    """Some vertices, and their new places."""
+    moved = rng.choice(inside, max(1, round(SHARE_OF_MOVES * mesh.n_vertices)), replace=False)
+    by = rng.normal(size=(len(moved), mesh.points.shape[1]))
+    by *= (rng.uniform(0, arguments.amount, len(moved)) * sizes_of(mesh)[moved] / np.linalg.norm(by, axis=1))[:, None]
+    return moved, mesh.points[moved] + by
+
+
+def spot(mesh, size, step):
+    """The field of a fine spot, whose center has gone a part of the way through the mesh."""
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    radius = 0.1 * (high - low).min()
+    center = low + (high - low) * (0.3, 0.5) + (0.2 * radius * (step % 20), 0)
+    far = np.linalg.norm(mesh.points - center, axis=1)
+    return temper.SizeField.from_values(mesh, size * np.clip(far / radius - 0.5, 0.5, 1))
+
+
 def loop(mesh, target, arguments):
     """One row, and the seconds of each update."""
     temper.optimize(mesh, target=target, threads=1, progress=False)
@@ -114,23 +141,26 @@ def loop(mesh, target, arguments):
     optimizer.update()
     check = min(seconds_of(optimizer.update)[0] for _ in range(5))
     rng = np.random.default_rng(2)
-    inside = inner_vertices(mesh)
+    inside, size = deep_vertices(mesh), np.median(sizes_of(mesh))
     updates, wholes, shares, rows, bad = [], [], [], [], 0
     for step in range(arguments.steps):
-        moved = rng.choice(inside, max(1, round(SHARE_OF_MOVES * mesh.n_vertices)), replace=False)
-        by = rng.normal(size=(len(moved), mesh.points.shape[1]))
-        by *= (rng.uniform(0, arguments.amount, len(moved)) * sizes_of(mesh)[moved] / np.linalg.norm(by, axis=1))[:, None]
         places, weights = mesh.points.copy(), mesh.weights.copy()
-        places[moved] += by
+        if arguments.change == "moves":
+            moved, to = moves(mesh, arguments, rng, inside)
+            places[moved] = to
+            change = ("move", moved, to)
+        else:
+            change = ("resize", spot(mesh, size, step))
         if step % WHOLE_RUN_EVERY == 0:
-            whole = with_points(mesh, places)
-            wholes.append(seconds_of(lambda: temper.optimize(whole, target=target, threads=1, progress=False))[0])
+            with contextlib.suppress(temper.TemperError):  # triangles may turn over, which only an update can mend
+                whole = with_points(mesh, places)
+                wholes.append(seconds_of(lambda whole=whole: temper.optimize(whole, target=target, threads=1, progress=False))[0])
         copy = mesh.copy()
-        optimizer.move(moved, places[moved])
+        getattr(optimizer, change[0])(*change[1:])
         seconds, update = seconds_of(optimizer.update)
         if arguments.threads > 1:
             again = temper.Optimizer(copy, target=target, threads=arguments.threads)
-            again.move(moved, places[moved])
+            getattr(again, change[0])(*change[1:])
             again.update()
             assert copy == mesh, f"step {step}: other bytes on {arguments.threads} threads"
         updates.append(seconds)
@@ -140,7 +170,7 @@ def loop(mesh, target, arguments):
         differ = (places[was[kept]] != mesh.points[kept]).any(axis=1) | (weights[was[kept]] != mesh.weights[kept])
         shares.append((differ.sum() + 2 * (mesh.n_vertices - len(kept)) + len(places) - mesh.n_vertices) / len(places))
         if len(update.vertices):
-            inside = inner_vertices(mesh)
+            inside = deep_vertices(mesh)
         bad = max(bad, violations(mesh, target))
     return {"check": check, "updates": updates, "wholes": wholes, "shares": shares, "rows": rows, "bad": bad}
 
@@ -164,6 +194,7 @@ def draw(rows, path):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cells", choices=["triangles", "tetrahedra"], default="triangles")
+    parser.add_argument("--change", choices=["moves", "sizes"], default="moves")
     parser.add_argument("--target", default="any,vertex,cell")
     parser.add_argument("--vertices", type=int, default=20000)
     parser.add_argument("--steps", type=int, default=100)

@@ -9,6 +9,7 @@
 #include "target.hpp"
 #include "temper/detail/optimize_table.hpp"
 #include "temper/detail/trace.hpp"
+#include "temper/detail/transfer.hpp"
 #include "temper/regularity.hpp"
 #include "temper/solvers.hpp"
 
@@ -111,6 +112,18 @@ void insist_on_hidden(const Mesh& mesh, const OptimizeReport& report) {
   insist(std::any_of(report.notes.begin(), report.notes.end(), says) == !again.stuck.empty(), "a note says so");
 }
 
+// Of a sum, over the sum of the absolute values. Areas of flat triangles are rounded, too.
+constexpr double kMostChange = 1e-12;
+
+/// Conserved data of triangles keep their sums over the domain and each region.
+void insist_on_conserved_data(const Mesh& before, const Mesh& mesh) {
+  std::vector<double> values;
+  for (const TriangleId t : before.triangles()) values.push_back(static_cast<double>(t.index % 5) - 1.5);
+  const Conserved conserved = conserve(overlaps(before, mesh, CellsOf::triangles), values);
+  insist(conserved.values.size() == mesh.n_triangles(), "each triangle has a value");
+  insist(conserved.change < kMostChange, "sums of conserved data stay");
+}
+
 void insist_on_result(const Mesh& before, const Mesh& mesh, const OptimizeReport& report,
                       const OptimizeOptions& options) {
   const auto wrong = mesh.validate();
@@ -118,7 +131,9 @@ void insist_on_result(const Mesh& before, const Mesh& mesh, const OptimizeReport
   insist(!wrong || tangled, wrong.value_or(""));
   insist(report.vertices.empty() || report.vertices.size() == mesh.n_vertices(), "every vertex has a number");
   insist(!report.vertices.empty() || mesh.n_vertices() == before.n_vertices(), "or there are as many as before");
-  if (wrong || tangled || options.flips == Flips::none) return;
+  if (wrong || tangled) return;
+  insist_on_conserved_data(before, mesh);
+  if (options.flips == Flips::none) return;
   if (options.paper.hidden == HiddenPolicy::keep) return insist_on_hidden(mesh, report);
   // An input comes back as it was if the flips that make it regular would make a measure of the guard worse.
   const GuardOptions& guard = options.guard;
