@@ -43,7 +43,10 @@ void keep_closed_streams_closed() {
 
 void prepare_process() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays that are freed after reading go back to the system
+  // Arrays of a large mesh that are freed after reading go back to the system. Smaller ones, which steps need again and
+  // again, do not: the system clears each page that it gives out.
+  mallopt(M_MMAP_THRESHOLD, 8 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
 #endif
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
   std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe without a reader
