@@ -25,7 +25,7 @@
 
 #include "temper/io.hpp"
 
-extern char** environ;
+extern char** environ;  // NOLINT(readability-redundant-declaration): unistd.h of macOS has none
 
 namespace temper::app {
 namespace {
