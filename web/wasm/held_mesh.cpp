@@ -21,14 +21,17 @@ Expected<std::unique_ptr<HeldMesh>> HeldMesh::of_file(io::MeshFile file, const s
   warnings = std::move(source->file.warnings);
   source->file.warnings.clear();
   warnings.insert(warnings.end(), source->loaded.warnings.begin(), source->loaded.warnings.end());
+  std::vector<double> corner_weights = io::corner_weights_of(source->file, source->loaded);
   auto held = std::make_unique<HeldMesh>(std::exchange(source->loaded.mesh, Mesh()));
+  held->corner_weights = std::move(corner_weights);
   held->source_ = std::move(source);
   return held;
 }
 
 /// Numbers in the former state become numbers in the source.
-void HeldMesh::replace(Mesh other, const IdVector<VertexId, VertexId>& vertices) {
+void HeldMesh::replace(Mesh other, const IdVector<VertexId, VertexId>& vertices, std::vector<double> weights) {
   mesh = std::move(other);
+  corner_weights = std::move(weights);
   if (vertices.empty() || !source_) return;
   IdVector<VertexId, VertexId> composed = vertices;
   for (VertexId& v : composed) {
@@ -38,9 +41,9 @@ void HeldMesh::replace(Mesh other, const IdVector<VertexId, VertexId>& vertices)
 }
 
 io::MeshFile HeldMesh::file() const {
-  if (!source_) return io::from_mesh(mesh);
-  io::MeshFile file = source_->file;
-  io::update(file, source_->loaded, mesh, origin_);
+  io::MeshFile file = source_ ? source_->file : io::from_mesh(mesh);
+  if (source_) io::update(file, source_->loaded, mesh, origin_);
+  io::set_corner_weights(file, corner_weights);
   return file;
 }
 

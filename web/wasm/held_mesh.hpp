@@ -26,11 +26,13 @@ class HeldMesh {
 
   /// Puts another mesh in place. `vertices`: former number of each vertex, invalid for inserted ones; empty when they
   /// are the same.
-  void replace(Mesh other, const IdVector<VertexId, VertexId>& vertices);
+  void replace(Mesh other, const IdVector<VertexId, VertexId>& vertices, std::vector<double> weights = {});
   /// The file it came from with the mesh as it is now, or a new one.
   [[nodiscard]] io::MeshFile file() const;
 
   Mesh mesh;
+  /// Weight of each corner of each triangle, three each, where tensors differ; empty: the weights of the vertices.
+  std::vector<double> corner_weights;
 
  private:
   std::shared_ptr<const Source> source_;

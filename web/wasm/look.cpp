@@ -11,20 +11,22 @@
 #include "temper/detail/html.hpp"
 #include "temper/draw.hpp"
 #include "temper/quality.hpp"
+#include "tensor.hpp"
 
 namespace temper::wasm {
 
-/// Options: gamma, h0, worst.
+/// Options: gamma, h0, worst, tensor.
 TEMPER_EXPORT(mesh_quality) int mesh_quality(const HeldMesh* held, const char* options, std::size_t size) {
   return done([&] {
-    constexpr std::string_view kNames[] = {"gamma", "h0", "worst"};
+    constexpr std::string_view kNames[] = {"gamma", "h0", "worst", "tensor"};
     const Json given = parse({options, size});
     expect_names(given, kNames);
     QualityOptions how;
     if (given.contains("gamma")) how.gamma = length_parameter_from("gamma", given["gamma"]);
     if (given.contains("h0")) how.h0 = length_parameter_from("h0", given["h0"]);
     take(given, "worst", how.worst);
-    answer(json_of(quality(held->mesh, how)));
+    const auto tensors = tensors_from(given, held->mesh);
+    answer(json_of(tensors ? quality(in_metric(*held, *tensors).mesh, how) : quality(held->mesh, how)));
   });
 }
 
@@ -77,6 +79,12 @@ int mesh_vertex_energy(const HeldMesh* held, const char* model, std::size_t size
 
 namespace {
 
+/// Operators, and the mesh that was measured: in the planes of tensors, if there are some.
+struct HeldComplex {
+  DecComplex complex;
+  std::optional<MetricMesh> pieces;
+};
+
 /// One member of every edge.
 template <class Member>
 void answer_edges(const DecComplex& complex, Member member) {
@@ -104,6 +112,7 @@ const std::map<std::string_view, AnswerArray>& dec_arrays() {
       {"star1", [](const DecComplex& c) { answer_all(c.star1.raw()); }},
       {"star2", [](const DecComplex& c) { answer_all(c.star2.raw()); }},
       {"transmissibility", [](const DecComplex& c) { answer_all(c.transmissibility.raw()); }},
+      {"half_transmissibility", [](const DecComplex& c) { answer_all(c.half_transmissibility.raw()); }},
       {"areas", [](const DecComplex& c) { answer_all(c.areas.raw()); }},
       {"orthocenters", [](const DecComplex& c) { answer_all(c.orthocenters.raw()); }},
       {"edge_of_halfedge", [](const DecComplex& c) { answer_all(c.edge_of_halfedge.raw()); }},
@@ -136,20 +145,30 @@ const std::map<std::string_view, AnswerArray>& dec_arrays() {
 
 }  // namespace
 
-TEMPER_EXPORT(dec_make) const DecComplex* dec_make(const HeldMesh* held) {
-  return guarded<const DecComplex*>(nullptr, [&] { return new DecComplex(dec_operators(held->mesh)); });
+/// Options: tensor.
+TEMPER_EXPORT(dec_make) const HeldComplex* dec_make(const HeldMesh* held, const char* options, std::size_t size) {
+  return guarded<const HeldComplex*>(nullptr, [&] {
+    constexpr std::string_view kNames[] = {"tensor"};
+    const Json given = parse({options, size});
+    expect_names(given, kNames);
+    const auto tensors = tensors_from(given, held->mesh);
+    if (!tensors) return new HeldComplex{dec_operators(held->mesh), {}};
+    MetricMesh pieces = in_metric(*held, *tensors);
+    DecComplex complex = mapped_back(dec_operators(pieces.mesh), pieces, held->mesh);
+    return new HeldComplex{std::move(complex), std::move(pieces)};
+  });
 }
-TEMPER_EXPORT(dec_release) void dec_release(const DecComplex* complex) { delete complex; }
+TEMPER_EXPORT(dec_release) void dec_release(const HeldComplex* held) { delete held; }
 /// The answer is the bytes of the array.
-TEMPER_EXPORT(dec_array) int dec_array(const DecComplex* complex, const char* name, std::size_t size) {
+TEMPER_EXPORT(dec_array) int dec_array(const HeldComplex* held, const char* name, std::size_t size) {
   return done([&] {
     const auto found = dec_arrays().find(std::string_view(name, size));
     if (found == dec_arrays().end()) throw WrongType{"there is no array " + std::string(name, size)};
-    found->second(*complex);
+    found->second(held->complex);
   });
 }
-TEMPER_EXPORT(dec_summary) int dec_summary(const HeldMesh* held, const DecComplex* complex) {
-  return done([&] { answer(json_of(summarize(held->mesh, *complex))); });
+TEMPER_EXPORT(dec_summary) int dec_summary(const HeldMesh* held, const HeldComplex* made) {
+  return done([&] { answer(json_of(summarize(made->pieces ? made->pieces->mesh : held->mesh, made->complex))); });
 }
 
 // --- pictures

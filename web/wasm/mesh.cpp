@@ -217,6 +217,9 @@ TEMPER_EXPORT(mesh_twin_data) const HalfedgeId* mesh_twin_data(const HeldMesh* h
 }
 
 // Arrays of int32 as the answer.
+TEMPER_EXPORT(mesh_corner_weights) int mesh_corner_weights(const HeldMesh* held) {
+  return done([&] { answer_array(std::span<const double>(held->corner_weights)); });
+}
 TEMPER_EXPORT(mesh_regions) int mesh_regions(const HeldMesh* held) {
   return done([&] {
     std::vector<std::int32_t> regions;
@@ -260,6 +263,7 @@ TEMPER_EXPORT(mesh_set_weights) int mesh_set_weights(HeldMesh* held, const doubl
   return done([&] {
     for (const VertexId v : held->mesh.vertices()) check_number(v, "weight", is_exact_weight(in[v.index]), in[v.index]);
     for (const VertexId v : held->mesh.vertices()) held->mesh.set_weight(v, in[v.index]);
+    held->corner_weights.clear();
   });
 }
 TEMPER_EXPORT(mesh_set_point) int mesh_set_point(HeldMesh* held, std::int32_t v, double x, double y, double w) {
@@ -286,6 +290,7 @@ TEMPER_EXPORT(mesh_validate) int mesh_validate(const HeldMesh* held) {
 TEMPER_EXPORT(mesh_restore_regularity) int mesh_restore_regularity(HeldMesh* held) {
   return done([&] {
     const Restoration r = restore_regularity(held->mesh);
+    if (r.flips > 0) held->corner_weights.clear();  // the edges are regular for the weights of the vertices
     Json json = {{"flips", r.flips}, {"regular", r.regular()}, {"stuck", Json::array()}, {"hidden", Json::array()}};
     for (const HalfedgeId h : r.stuck) json["stuck"].push_back(h.index);
     for (const VertexId v : r.hidden) json["hidden"].push_back(v.index);

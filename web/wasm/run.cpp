@@ -5,6 +5,7 @@
 #include "temper/detail/trace.hpp"
 #include "temper/optimize.hpp"
 #include "temper/solvers.hpp"
+#include "tensor.hpp"
 
 namespace temper::wasm {
 namespace {
@@ -36,7 +37,15 @@ TEMPER_EXPORT(options_for) int options_for_words(const char* words, std::size_t 
 TEMPER_EXPORT(mesh_optimize)
 int mesh_optimize(HeldMesh* held, const char* run, std::size_t size, int traced, int shown) {
   return done([&] {
-    const OptimizeOptions options = options_from(parse({run, size}));
+    Json given = parse({run, size});
+    const std::optional<GivenTensors> tensors = tensors_from(given, held->mesh);
+    given.erase("tensor");
+    OptimizeOptions options = options_from(given);
+    if (tensors) {
+      options.tensor = tensors->one;
+      options.triangle_tensors = tensors->of_triangles;
+      if (!tensors->one) options.corner_weights = held->corner_weights;
+    }
     OptimizeHooks hooks;
     hooks.observer = tell;
     hooks.solvers = solvers();
@@ -54,9 +63,9 @@ int mesh_optimize(HeldMesh* held, const char* run, std::size_t size, int traced,
       };
     }
     Mesh mesh = held->mesh;
-    const Expected<OptimizeReport> report = optimize(mesh, options, hooks);
+    Expected<OptimizeReport> report = optimize(mesh, options, hooks);
     if (!report) throw BadInput{spelled(report.error())};
-    held->replace(std::move(mesh), report->vertices);
+    held->replace(std::move(mesh), report->vertices, std::move(report->corner_weights));
     answer(json_of(*report));
   });
 }

@@ -25,11 +25,11 @@ struct AvsKind {
   int vtk;
   std::size_t points;
 };
-constexpr std::array<AvsKind, 5> kAvsKinds = {{{"pt", kVtkVertex, 1},
-                                               {"line", kVtkLine, 2},
-                                               {"tri", kVtkTriangle, 3},
-                                               {"quad", kVtkQuad, 4},
-                                               {"tet", kVtkTetrahedron, 4}}};
+constexpr AvsKind kAvsKinds[] = {{"pt", kVtkVertex, 1},
+                                 {"line", kVtkLine, 2},
+                                 {"tri", kVtkTriangle, 3},
+                                 {"quad", kVtkQuad, 4},
+                                 {"tet", kVtkTetrahedron, 4}};
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kAvsOthers = {
     {{"hex", "hexahedron"}, {"prism", "prism"}, {"pyr", "pyramid"}}};
 
@@ -91,7 +91,7 @@ class AvsReader {
   }
   [[nodiscard]] const AvsKind& kind_of(std::int64_t cell, std::string_view word) const {
     const auto* const known = std::ranges::find(kAvsKinds, word, &AvsKind::word);
-    if (known != kAvsKinds.end()) return *known;
+    if (known != std::end(kAvsKinds)) return *known;
     for (const auto& [other, name] : kAvsOthers) {
       if (word == other) refuse_element(scanner_.where(), cell, name, KindsOfCells::all);
     }
@@ -115,6 +115,7 @@ class AvsReader {
     }
     std::vector<bool> are_integers;
     scanner_.next_line();
+    are_integers.reserve(arrays.size());
     for (DataArray& array : arrays) are_integers.push_back(name_array(array, scanner_.rest_of_line()));
     scanner_.check_room(numbers.size(), text("rows of data of a ", kind), 2 * (width + 1));
     std::vector<std::vector<double>> values(arrays.size());

@@ -236,9 +236,11 @@ std::span<const Preset> keeps() { return kKeeps; }
 std::span<const SolverName> solver_names() { return kSolvers; }
 
 const SolverName* find_solver(std::string_view name) {
-  const auto* const found =
-      std::ranges::find(kSolvers, plain_name(name), [](const SolverName& solver) { return plain_name(solver.name); });
-  return found == kSolvers.end() ? nullptr : found;
+  const std::string plain = plain_name(name);
+  for (const SolverName& solver : kSolvers) {
+    if (plain_name(solver.name) == plain) return &solver;
+  }
+  return nullptr;
 }
 
 std::string did_you_mean(std::string_view word, std::span<const Preset> presets) {

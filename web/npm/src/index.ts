@@ -5,7 +5,7 @@ import type { EffortName, KeepName, OptimizeOptions, TargetName } from './option
 import type { DecSummary, Explanation, OptimizeReport, Progress, Quality, TraceEvent } from './records.ts';
 import type {
   DecComplex, DrawOptions, EnergyInfo, EnergyModel, Format, IncidenceMatrix, OptionRow, Preset, Restoration,
-  Snapshot, LengthParameterLike, VertexDerivatives,
+  Snapshot, LengthParameterLike, TensorLike, VertexDerivatives,
 } from './types.ts';
 import { loadSolver } from './solver.ts';
 
@@ -97,6 +97,9 @@ export interface OptimizeArguments {
   keep?: KeepName | readonly KeepName[];
   /** Treatment of the boundary. By default it stays bit for bit. */
   boundary?: OptimizeOptions['boundary'];
+  /** Diffusion tensors. Triangles become well-centered in the metric of theirs, and the report is in this metric. Where tensors
+   * differ, vertices get a weight for each region: `mesh.corner_weights`. */
+  tensor?: TensorLike;
   /** Time limit in seconds. The run then ends with the best mesh so far. */
   time_limit?: number;
   /** Gets the progress, at least once per sweep. If it returns false, the run stops with the best mesh so far. */
@@ -152,8 +155,10 @@ export function restore_regularity(mesh: Mesh): Restoration {
 
 // --- measures ----------------------------------------------------------------------------------------------------------
 
-/** Measures a mesh: validity, regularity, well-centered triangles and margins. */
-export function quality(mesh: Mesh, options: { gamma?: LengthParameterLike; h0?: LengthParameterLike; worst?: number } = {}): Quality {
+/** Measures a mesh: validity, regularity, well-centered triangles and margins. With a tensor, it measures in its metric. */
+export function quality(
+  mesh: Mesh, options: { gamma?: LengthParameterLike; h0?: LengthParameterLike; worst?: number; tensor?: TensorLike } = {},
+): Quality {
   call('mesh_quality', mesh.handle, toJson(options));
   return answer();
 }
@@ -204,9 +209,9 @@ export function vertex_energy(mesh: Mesh, model: EnergyModel, vertex: number): V
   return answer();
 }
 
-/** The operators of discrete exterior calculus. */
-export function dec_operators(mesh: Mesh): DecComplex {
-  const complex = call('dec_make', mesh.handle);
+/** The operators of discrete exterior calculus. With a tensor K, ★1 and transmissibilities are those of −div(K ∇u). */
+export function dec_operators(mesh: Mesh, options: { tensor?: TensorLike } = {}): DecComplex {
+  const complex = call('dec_make', mesh.handle, toJson(options));
   const bytes = (name: string): ArrayBuffer => {
     call('dec_array', complex, name);
     return answerBytes().buffer;
@@ -239,6 +244,7 @@ export function dec_operators(mesh: Mesh): DecComplex {
       star1: reals('star1'),
       star2: reals('star2'),
       transmissibility: reals('transmissibility'),
+      half_transmissibility: reals('half_transmissibility'),
       orthocenters: reals('orthocenters'),
       areas: reals('areas'),
       summary,

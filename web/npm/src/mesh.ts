@@ -121,6 +121,12 @@ export class Mesh {
     call('mesh_set_weights', this.handle, this.sized(doubles(weights, 1, 'weights'), 1, 'weights'));
   }
 
+  /** Weight of each corner of each triangle, three each, where tensors of regions differ (see optimize). Else empty. */
+  get corner_weights(): Float64Array {
+    call('mesh_corner_weights', this.handle);
+    return new Float64Array(answerBytes().buffer);
+  }
+
   /** x, y, w of a vertex. */
   point(vertex: number): [number, number, number] {
     if (!(vertex >= 0 && vertex < this.n_vertices)) throw new RangeError(`there is no vertex ${vertex}`);

@@ -15,6 +15,11 @@ export interface LengthParameter {
 /** A plain number is relative to each edge. */
 export type LengthParameterLike = number | LengthParameter;
 
+/** kxx, kxy, kyy of a diffusion tensor K, for −div(K ∇u): symmetric, positive definite. */
+export type Tensor = readonly [number, number, number];
+/** One tensor; one for each region, by its number; or one for each triangle. */
+export type TensorLike = Tensor | Readonly<Record<number, Tensor>> | readonly Tensor[];
+
 /** A row of the registry of energies. */
 export interface EnergyInfo {
   name: EnergyName;
@@ -144,6 +149,9 @@ export interface DecComplex {
   star2: Float64Array;
   /** Transmissibility of a two-point flux between orthocenters. It is Infinity if a dual edge has no length. */
   transmissibility: Float64Array;
+  /** With several tensors, else empty: K ℓ/h of each halfedge. Where both triangles of an edge have one, the harmonic sum is
+   * the transmissibility. */
+  half_transmissibility: Float64Array;
   /** x, y of the orthocenter of each triangle. */
   orthocenters: Float64Array;
   areas: Float64Array;

@@ -132,6 +132,66 @@ test('operators fit together', () => {
   assert.equal(edges.vertices.length, 2 * n[1]);
 });
 
+/** A square of two layers, regions 1 and 2, whose inner vertices are moved a little. */
+function layers(n = 8) {
+  const points = [], triangles = [], regions = [];
+  for (let j = 0; j <= n; j++) {
+    for (let i = 0; i <= n; i++) {
+      const inner = i > 0 && i < n && j > 0 && j < n && 2 * j !== n;
+      points.push([(i + (inner ? 0.2 * Math.sin(7 * i + 3 * j) : 0)) / n, (j + (inner ? 0.2 * Math.cos(5 * i + 11 * j) : 0)) / n]);
+    }
+  }
+  for (let j = 0; j < n; j++) {
+    for (let i = 0; i < n; i++) {
+      const a = i + (n + 1) * j, d = a + n + 1;
+      triangles.push([a, a + 1, d + 1], [a, d + 1, d]);
+      regions.push(...[1, 1].map((r) => (2 * j < n ? r : r + 1)));
+    }
+  }
+  return new temper.Mesh(points, triangles, null, { regions });
+}
+
+test('a tensor for each region: a weight for each corner, good triangles in each metric', () => {
+  const tensor = { 1: [1, 0, 1], 2: [1, 0.2, 1.5] };
+  const mesh = layers();
+  const before = temper.quality(mesh, { tensor });
+  temper.optimize(mesh, { tensor });
+  const after = temper.quality(mesh, { tensor });
+  assert(before.well_centered_fraction < 0.9 && after.well_centered_fraction === 1, `${before.well_centered_fraction} ${after.well_centered_fraction}`);
+  assert.equal(mesh.corner_weights.length, 3 * mesh.n_triangles);
+  const files = {};
+  temper.write('rock.vtu', mesh, { files });
+  const again = temper.read('rock.vtu', { files });
+  assert.deepEqual(again.corner_weights, mesh.corner_weights);
+  assert.deepEqual(temper.quality(again, { tensor }), after);
+  // Across an interface two halves in a row are the transmissibility of the edge.
+  const { transmissibility, half_transmissibility, edge_of_halfedge } = temper.dec_operators(mesh, { tensor });
+  const twins = mesh.twins;
+  for (let h = 0; h < twins.length; h++) {
+    if (twins[h] < 0) continue;
+    const halves = half_transmissibility[h] * half_transmissibility[twins[h]] / (half_transmissibility[h] + half_transmissibility[twins[h]]);
+    assert(Math.abs(halves / transmissibility[edge_of_halfedge[h]] - 1) < 1e-9);
+  }
+  mesh.weights = mesh.weights;
+  assert.equal(mesh.corner_weights.length, 0);
+});
+
+test('one tensor is the same for all, for each region and for each triangle', () => {
+  const one = layers(), regions = layers(), triangles = layers();
+  temper.optimize(one, { tensor: [2, 0.5, 1] });
+  temper.optimize(regions, { tensor: { 1: [2, 0.5, 1], 2: [2, 0.5, 1] } });
+  temper.optimize(triangles, { tensor: Array(triangles.n_triangles).fill([2, 0.5, 1]) });
+  assert(one.equals(regions) && one.equals(triangles));
+  const plain = temper.dec_operators(one).star1, scaled = temper.dec_operators(one, { tensor: [4, 0, 4] }).star1;
+  assert.deepEqual(scaled, plain.map((x) => 4 * x));
+  const refuses = (tensor, error) => assert.throws(() => temper.quality(one, { tensor }), error);
+  refuses([1, 0], { name: 'TypeError', message: 'tensor: expected kxx, kxy, kyy, found [1,0]' });
+  refuses({ 1: [1, 0, 1] }, { code: 'invalid_option', message: /for each of the regions 1, 2; there is none for 2/ });
+  refuses({ 1: [1, 0, 1], 2: [1, 0, 1], 7: [1, 0, 1] }, /the mesh has no region 7/);
+  refuses([[1, 0, 1]], { code: 'size_mismatch' });
+  refuses([1, 2, 1], temper.TemperError);
+});
+
 test('numbers that JSON has not come through', () => {
   const q = temper.quality(temper.generate.letter_a());
   assert.equal(q.energy.BH[1], Infinity);

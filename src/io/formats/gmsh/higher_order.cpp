@@ -1,7 +1,7 @@
 #include "io/formats/gmsh/higher_order.hpp"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 #include "io/conversion/kept_points.hpp"
 #include "io/formats/gmsh/gmsh.hpp"
@@ -10,25 +10,25 @@
 namespace temper::io {
 
 GmshElementType gmsh_element_type(std::int32_t type) {
-  constexpr std::array<GmshElementType, 17> kHigherOrder = {{{8, kGmshLine, 1},
-                                                             {26, kGmshLine, 2},
-                                                             {27, kGmshLine, 3},
-                                                             {28, kGmshLine, 4},
-                                                             {9, kGmshTriangle, 3},
-                                                             {20, kGmshTriangle, 6},
-                                                             {21, kGmshTriangle, 7},
-                                                             {23, kGmshTriangle, 12},
-                                                             {25, kGmshTriangle, 18},
-                                                             {16, kGmshQuadrilateral, 4},
-                                                             {10, kGmshQuadrilateral, 5},
-                                                             {36, kGmshQuadrilateral, 12},
-                                                             {37, kGmshQuadrilateral, 21},
-                                                             {11, kGmshTetrahedron, 6},
-                                                             {29, kGmshTetrahedron, 16},
-                                                             {30, kGmshTetrahedron, 31},
-                                                             {31, kGmshTetrahedron, 52}}};
+  constexpr GmshElementType kHigherOrder[] = {{8, kGmshLine, 1},
+                                              {26, kGmshLine, 2},
+                                              {27, kGmshLine, 3},
+                                              {28, kGmshLine, 4},
+                                              {9, kGmshTriangle, 3},
+                                              {20, kGmshTriangle, 6},
+                                              {21, kGmshTriangle, 7},
+                                              {23, kGmshTriangle, 12},
+                                              {25, kGmshTriangle, 18},
+                                              {16, kGmshQuadrilateral, 4},
+                                              {10, kGmshQuadrilateral, 5},
+                                              {36, kGmshQuadrilateral, 12},
+                                              {37, kGmshQuadrilateral, 21},
+                                              {11, kGmshTetrahedron, 6},
+                                              {29, kGmshTetrahedron, 16},
+                                              {30, kGmshTetrahedron, 31},
+                                              {31, kGmshTetrahedron, 52}};
   const auto* const found = std::ranges::find(kHigherOrder, type, &GmshElementType::type);
-  return found == kHigherOrder.end() ? GmshElementType{type, type} : *found;
+  return found == std::end(kHigherOrder) ? GmshElementType{type, type} : *found;
 }
 
 std::int32_t gmsh_dimension(std::int32_t type) {
