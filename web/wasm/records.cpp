@@ -57,6 +57,24 @@ Json to_json(const OptionValue& value) {
       value);
 }
 
+/// The TypeScript type of an option, for errors.
+std::string type_of(const OptionRow& row) {
+  const auto plain = [&row]() -> std::string {
+    switch (row.kind) {
+      case OptionKind::length_parameter:
+        return "LengthParameterLike";
+      case OptionKind::choice: {
+        std::string list;
+        for (const std::string_view each : row.choices) list += (list.empty() ? "" : " | ") + choice(each).dump();
+        return list;
+      }
+      default:
+        return "number";
+    }
+  };
+  return plain() + (row.optional ? " | null" : "");
+}
+
 /// Throws Json::exception when the type is wrong. `text` keeps the name of a choice.
 OptionValue value_from(const OptionRow& row, const Json& given, std::string& text) {
   if (given.is_null()) return {};

@@ -98,7 +98,7 @@ class MetricDec {
   /// The face of a tetrahedron with these vertices, in any order.
   static FaceId face_of(const DecComplex& complex, TetId t, std::array<VertexId, 3> vertices) {
     std::sort(vertices.begin(), vertices.end());
-    const auto begin = complex.d2.columns.begin() + 4 * std::ptrdiff_t{t.index};
+    const auto begin = complex.d2.columns.begin() + 4 * static_cast<std::ptrdiff_t>(t.index);
     return FaceId(static_cast<std::size_t>(*std::find_if(begin, begin + 4, [&](std::int32_t f) {
       return complex.faces[FaceId(static_cast<std::size_t>(f))].vertices == vertices;
     })));

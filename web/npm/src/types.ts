@@ -16,7 +16,7 @@ export interface LengthParameter {
 export type LengthParameterLike = number | LengthParameter;
 
 /** kxx, kxy, kyy of a diffusion tensor K, for −div(K ∇u): symmetric, positive definite. */
-export type Tensor = readonly [number, number, number];
+export type Tensor = readonly number[];
 /** One tensor; one for each region, by its number; or one for each triangle. */
 export type TensorLike = Tensor | Readonly<Record<number, Tensor>> | readonly Tensor[];
 
