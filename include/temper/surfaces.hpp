@@ -185,7 +185,7 @@ struct BuiltSurface {
 // --- optimization ---------------------------------------------------------------------------------------------------
 
 struct SurfaceOptions {
-  Criterion criterion = Criterion::well_centered;  ///< What the mesh must meet: the run ends when it does
+  Criterion criterion = Criterion::well_centered;  ///< The run ends when the mesh meets it
   double margin = 0.01;                            ///< Margin t of the final weights, in (0, 1/2)
   /// Largest distance between input and result, in parts of the diagonal of the bounding box.
   double surface_distance = 0.005;
@@ -199,8 +199,8 @@ struct SurfaceOptions {
 struct SurfaceReport {
   Quality before, after;
   std::size_t violations_before = 0, violations_after = 0;  ///< Numbers of violations of the criterion
-  /// Largest distance between input and result, at vertices, centers of triangles and middles of edges, measured both
-  /// ways [length].
+  /// Largest distance between input and result, at vertices, centers of triangles and midpoints of edges. It is
+  /// measured both ways [length].
   double surface_distance = 0;
   double diagonal = 0;      ///< Diagonal of the bounding box of the input [length]
   std::size_t rounds = 0;   ///< Number of rounds that moved all vertices

@@ -124,6 +124,7 @@ class Explainer {
   Explainer(const Mesh& mesh, const MetricMesh* pieces, LpSolver& solver, const ExplainOptions& options)
       : mesh_(mesh),
         pieces_(pieces),
+        seams_(pieces != nullptr ? seams_of(*pieces) : std::vector<SeamEdge>()),
         solver_(solver),
         options_(options),
         demand_(pieces != nullptr ? TriangleDemand(*pieces, Constraints::well_centered)
@@ -172,9 +173,7 @@ class Explainer {
     return copies > 1;
   }
   [[nodiscard]] bool is_seam(HalfedgeId h) const {
-    if (pieces_ == nullptr || !mesh_.is_boundary(h)) return false;
-    const auto seams = seams_of(*pieces_);
-    return std::any_of(seams.begin(), seams.end(), [h](const SeamEdge& s) { return s.one == h || s.other == h; });
+    return std::any_of(seams_.begin(), seams_.end(), [h](const SeamEdge& s) { return s.one == h || s.other == h; });
   }
   [[nodiscard]] bool touches_interface(std::span<const TriangleId> triangles) const {
     return std::any_of(triangles.begin(), triangles.end(), [&](TriangleId t) {
@@ -426,6 +425,7 @@ class Explainer {
 
   const Mesh& mesh_;
   const MetricMesh* const pieces_;  ///< null without tensors
+  const std::vector<SeamEdge> seams_;
   LpSolver& solver_;
   const ExplainOptions& options_;
   const TriangleDemand demand_;

@@ -72,6 +72,16 @@ constexpr bool assumes_reach(Constraints constraints) {
          constraints == Constraints::distances;
 }
 
+/// A bound of the difference of the weights of an edge of a triangle, whose squared length is `l2`. `across` gives the
+/// difference of the squared distances of its ends from the third corner, without its sign.
+template <class Across>
+Number bound_in_triangle(Constraints constraints, const Number& l2, const Across& across) {
+  if (assumes_reach(constraints)) return Number(kWeightReach) * l2;
+  if (constraints != Constraints::heights_only) return l2;
+  Number most = across();
+  return (most - l2).sign() == Sign::positive ? most : l2;
+}
+
 inline bool has_good_multipliers(const Certificate& certificate) {
   const auto good = [](const Certificate::Term& term) {
     return std::isfinite(term.multiplier) && (term.multiplier >= 0 || term.constraint.kind == Kind::equal_crossing);

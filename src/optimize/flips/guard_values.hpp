@@ -28,7 +28,7 @@ struct GuardValues {
     centroid,       ///< −distance of a vertex from the centroid of its cell, over local size
   };
   static constexpr std::size_t kMeasures = 15;
-  /// Indexed by Measure. Of the last one, which fills a register of lanes, nothing is known.
+  /// Indexed by Measure. The last value fills a register of lanes and stays infinite.
   alignas(64) std::array<double, kMeasures + 1> value;
 
   GuardValues() { value.fill(std::numeric_limits<double>::infinity()); }

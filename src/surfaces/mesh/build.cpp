@@ -72,13 +72,14 @@ class SurfaceBuilder {
       const Vec3 p = input_.place(i);
       const double w = input_.weight(i);
       const bool is_finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-      const std::string at = names_.point(i) + " has coordinates " + input_.place_text(i);
-      if (!is_finite) return input_.point_error(ErrorCode::not_finite, i, at + ", expected finite numbers");
+      const auto at = [&] { return names_.point(i) + " has coordinates " + input_.place_text(i); };
+      const auto weight = [&] { return names_.point(i) + " has weight " + to_text(w); };
+      if (!is_finite) return input_.point_error(ErrorCode::not_finite, i, at() + ", expected finite numbers");
       if (!kCoordinates.allows(p.x) || !kCoordinates.allows(p.y) || !kCoordinates.allows(p.z))
-        return input_.point_error(ErrorCode::out_of_scale, i, at + "; " + kCoordinates.text());
-      const std::string weight = names_.point(i) + " has weight " + to_text(w);
-      if (!std::isfinite(w)) return input_.point_error(ErrorCode::not_finite, i, weight + ", expected a finite number");
-      if (!kWeights.allows(w)) return input_.point_error(ErrorCode::out_of_scale, i, weight + "; " + kWeights.text());
+        return input_.point_error(ErrorCode::out_of_scale, i, at() + "; " + kCoordinates.text());
+      if (!std::isfinite(w))
+        return input_.point_error(ErrorCode::not_finite, i, weight() + ", expected a finite number");
+      if (!kWeights.allows(w)) return input_.point_error(ErrorCode::out_of_scale, i, weight() + "; " + kWeights.text());
       mesh_.set_point(VertexId(i), {p.x, p.y, w});
       result_.mesh.z_[VertexId(i)] = p.z;
     }

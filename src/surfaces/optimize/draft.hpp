@@ -50,7 +50,7 @@ class DraftEnergy {
   /// Steps begin where the points are now.
   void keep() { start_ = draft_.points; }
 
-  /// Lowers the energy by at most so many steps.
+  /// Lowers the energy. `steps`: the most.
   void lower(int steps, const std::function<bool()>& must_stop);
   /// Takes moved vertices to the closest points of a surface. Where triangles would fold over or become thin, vertices
   /// go back to where they were at first.

@@ -8,13 +8,13 @@
 
 namespace temper::surfaces {
 
-/// What a flip may do.
+/// The limits of flips.
 struct FlipRules {
   const ClosestPoints& input;
   double most_distance = 0;  ///< Largest distance of the new triangles from the input surface
 };
 
-/// The largest distance of a triangle from a surface, at its center and the middles of its edges.
+/// The largest distance between a triangle and a surface, at its center and the midpoints of its edges.
 [[nodiscard]] double distance_of(const ClosestPoints& surface, Vec3 a, Vec3 b, Vec3 c);
 
 /// Flips edges whose dual is negative, the least first, if the dual of the new edge is larger. The new triangles have

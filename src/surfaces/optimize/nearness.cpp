@@ -8,7 +8,7 @@
 namespace temper::surfaces {
 namespace {
 
-/// Calls use(place, triangle) for the centers of triangles and the middles of edges.
+/// Calls use(place, triangle) for the centers of triangles and the midpoints of edges.
 template <class Use>
 void for_each_sample(const SurfaceMesh& mesh, const Use& use) {
   const Mesh& connectivity = mesh.connectivity();

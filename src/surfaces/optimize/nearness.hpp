@@ -1,4 +1,4 @@
-// How far a surface is from the input surface.
+// The distance between a surface and the input surface.
 #pragma once
 
 #include <vector>

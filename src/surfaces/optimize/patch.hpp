@@ -21,7 +21,7 @@ struct Edit {
 /// Triangles with their vertices, numbered by themselves. Vertices whose triangles are not all in it stay.
 class Patch {
  public:
-  /// The triangles within so many rings of vertices around one.
+  /// The triangles within a number of rings of vertices around one.
   Patch(const State& state, TriangleId center, int rings);
 
   [[nodiscard]] const std::vector<TriangleId>& cells() const { return cells_; }

@@ -41,11 +41,8 @@ class SurfaceTerms : public WeightDifferences {
   }
   /// b of an edge of a triangle whose third corner is in `others`; a crossing has none.
   [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, std::span<const VertexId> others) const {
-    const Number length = squared_distance(a, b);
-    if (assumes_reach(constraints_)) return Number(kWeightReach) * length;
-    if (constraints_ != Constraints::heights_only) return length;
-    Number across = abs(squared_distance(a, others[0]) - squared_distance(b, others[0]));
-    return (across - length).sign() == Sign::positive ? across : length;
+    return bound_in_triangle(constraints_, squared_distance(a, b),
+                             [&] { return abs(squared_distance(a, others[0]) - squared_distance(b, others[0])); });
   }
   /// Twice the area of pqr, as rounded.
   [[nodiscard]] double doubled_area(VertexId p, VertexId q, VertexId r) const {
