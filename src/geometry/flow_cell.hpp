@@ -25,7 +25,10 @@ inline constexpr double kAdvisedOrthogonality = 0.01;
 
 struct FlowCell {
   Vec3 center;
-  double area = 0;
+  double area = 0, size = 0;  ///< size²: the area
+
+  FlowCell() = default;
+  FlowCell(Vec3 at, double area_there) : center(at), area(area_there), size(std::sqrt(area_there)) {}
 };
 
 [[nodiscard]] inline FlowCell flow_cell(Vec3 a, Vec3 b, Vec3 c) {
@@ -94,7 +97,7 @@ struct FlowLink {
   FlowLink result;
   if (link_length > kHasDirection * edge_length)
     result.orthogonality = std::min(1.0, std::abs(dot(edge, link)) / (edge_length * link_length));
-  result.length = link_length / (0.5 * (std::sqrt(left.area) + std::sqrt(right.area)));
+  result.length = link_length / (0.5 * (left.size + right.size));
   return result;
 }
 

@@ -61,7 +61,6 @@ Guard::Triangle Guard::triangle(const Corners& corners, bool of_plan) const {
   if (limits_->has_flow) {
     t.corners = corners;
     t.at = {place(a), place(b), place(c)};
-    t.cell = flow_cell(t.at[0], t.at[1], t.at[2]);
   }
   if (!has_depth()) return t;
   for (const VertexId v : corners) t.depth += (is_there(v) ? there_ : (*depths_)[v]).value / 3;
@@ -69,8 +68,13 @@ Guard::Triangle Guard::triangle(const Corners& corners, bool of_plan) const {
   return t;
 }
 
+void Guard::add_cell(Triangle& t) const {
+  if (limits_->has_flow) t.cell = flow_cell(t.at[0], t.at[1], t.at[2]);
+}
+
 Guard::Triangle Guard::triangle(TriangleId id) const {
   Triangle t = triangle(mesh_.corners(id));
+  add_cell(t);
   for (std::size_t k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(id, static_cast<int>(k));
     if (!mesh_.is_diagonal(h)) continue;
@@ -82,48 +86,43 @@ Guard::Triangle Guard::triangle(TriangleId id) const {
   return t;
 }
 
-GuardValues Guard::alone(const Triangle& t, const GuardValues& limits) const {
-  if (t.diagonal) return {};  // a quadrilateral stays as it is, and half of it has other angles
+void Guard::take_alone(GuardValues& v, const Triangle& t, const GuardValues& limits) const {
+  if (t.diagonal) return;  // a quadrilateral stays as it is, and half of it has other angles
   const auto [least, most] = std::minmax({t.l2[0], t.l2[1], t.l2[2]});
   const double middle = t.l2[0] + t.l2[1] + t.l2[2] - least - most;
   const double height2 = t.doubled_area * t.doubled_area / most;
-  GuardValues v;
-  v.value[GuardValues::sine] = height2 / middle;
-  v.value[GuardValues::cosine] = cosine_of(most, least, middle);
-  v.value[GuardValues::shortest] = units_.scale * units_.scale * least;
+  const double of_largest = cosine_of(most, least, middle);
+  v.take(GuardValues::sine, height2 / middle);
+  v.take(GuardValues::cosine, of_largest);
+  v.take(GuardValues::shortest, units_.scale * units_.scale * least);
   if (limits_->has_cells) {
-    v.value[GuardValues::edges_alike] = least / most;
-    const double cosine = cosine_of(least, middle, most) - 1, of_largest = v.value[GuardValues::cosine] - 1;
-    if (!is_ratio_surely_at_least(limits.value[GuardValues::angles_alike], cosine, of_largest))
-      v.value[GuardValues::angles_alike] = arc_cosine(cosine) / arc_cosine(of_largest);
+    v.take(GuardValues::edges_alike, least / most);
+    const double cosine = cosine_of(least, middle, most) - 1;
+    if (!is_ratio_surely_at_least(limits.value[GuardValues::angles_alike], cosine, of_largest - 1))
+      v.take(GuardValues::angles_alike, arc_cosine(cosine) / arc_cosine(of_largest - 1));
   }
-  if (!has_depth()) return v;
+  if (!has_depth()) return;
   const double slowness2 = units_.scale * units_.scale / (kGravity * t.depth);
-  v.value[GuardValues::crossing] = slowness2 * height2;
-  v.value[GuardValues::edge_crossing] = slowness2 * least;
-  return v;
+  v.take(GuardValues::crossing, slowness2 * height2);
+  v.take(GuardValues::edge_crossing, slowness2 * least);
 }
 
-GuardValues Guard::of_pair(const Triangle& s, std::size_t k, const Triangle& t) const {
+void Guard::take_pair(GuardValues& v, const Triangle& s, std::size_t k, const Triangle& t) {
   const auto [less, more] = std::minmax(s.doubled_area, t.doubled_area);
-  GuardValues v;
-  v.value[GuardValues::areas] = less / more;
-  v.value[GuardValues::edge] = std::numbers::sqrt3 * s.l2[k] / (s.doubled_area + t.doubled_area);
-  if (!limits_->has_flow) return v;
-  const FlowLink link = link_across(s, k, t);
-  v.value[GuardValues::orthogonality] = -link.orthogonality;
-  v.value[GuardValues::link] = link.length;
-  return v;
+  v.take(GuardValues::areas, less / more);
+  v.take(GuardValues::edge, std::numbers::sqrt3 * s.l2[k] / (s.doubled_area + t.doubled_area));
 }
 
-FlowLink Guard::link_across(const Triangle& s, std::size_t k, const Triangle& t) const {
+void Guard::take_link(GuardValues& v, const Triangle& s, std::size_t k, const Triangle& t) const {
   FlowCell across = t.cell;
   if (mesh_.space().is_periodic()) {  // the image of t that is next to s
     for (std::size_t m = 0; m < 3; ++m) {
       if (t.corners[m] == s.corners[k]) across.center = across.center + (s.at[k] - t.at[m]);
     }
   }
-  return flow_link(s.at[(k + 1) % 3] - s.at[k], s.cell, across);
+  const FlowLink link = flow_link(s.at[(k + 1) % 3] - s.at[k], s.cell, across);
+  v.take(GuardValues::orthogonality, -link.orthogonality);
+  v.take(GuardValues::link, link.length);
 }
 
 GuardValues Guard::cell(VertexId v, bool moved, const OutsideNeighbors* outside) const {
@@ -161,14 +160,15 @@ GuardValues Guard::cells_around(VertexId v, bool moved) const {
 
 GuardValues Guard::around(TriangleId t, const GuardValues& limits, std::span<const TriangleId> except) const {
   const Triangle shape = triangle(t);
-  GuardValues v = alone(shape, limits);
+  GuardValues v;
+  take_alone(v, shape, limits);
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId across = mesh_.twin(Mesh::halfedge(t, k));
     if (!across.valid() || mesh_.is_diagonal(across) ||
         std::ranges::find(except, Mesh::triangle(across)) != except.end())
       continue;
     if (!part_.contains(mesh_.opposite(across))) continue;
-    v.take(of_pair(shape, static_cast<std::size_t>(k), triangle(Mesh::triangle(across))));
+    take_pair_and_link(v, shape, static_cast<std::size_t>(k), triangle(Mesh::triangle(across)));
   }
   return v;
 }
@@ -186,7 +186,8 @@ bool Guard::allows(std::span<const TriangleId> old, std::span<const Corners> fre
   shapes_.clear();
   for (const Corners& corners : fresh) {
     shapes_.push_back(triangle(corners, true));
-    after.take(alone(shapes_.back(), limits_->for_steps));
+    add_cell(shapes_.back());
+    take_alone(after, shapes_.back(), limits_->for_steps);
   }
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -196,38 +197,63 @@ bool Guard::allows(std::span<const TriangleId> old, std::span<const Corners> fre
         for (std::size_t m = 0; m < 3 && !inside; ++m) {
           inside = fresh[j][m] == b && fresh[j][(m + 1) % 3] == a;
         }
-        if (inside && i < j) after.take(of_pair(shapes_[i], k, shapes_[j]));
+        if (inside && i < j) take_pair_and_link(after, shapes_[i], k, shapes_[j]);
       }
       if (inside || !a.valid() || !b.valid()) continue;
       const HalfedgeId h = mesh_.find_halfedge(a, b);
       if (!h.valid() || mesh_.is_boundary(h)) continue;
       const TriangleId outside = Mesh::triangle(mesh_.twin(h));
-      after.take(of_pair(shapes_[i], k, triangle(outside)));
+      take_pair_and_link(after, shapes_[i], k, triangle(outside));
     }
   }
   return after.are_within(limits_->for_steps) || after.hold(around(old), limits_->for_steps);
 }
 
+void Guard::find_link(VertexId v) {
+  old_.clear();
+  for (const HalfedgeId h : mesh_.star(v)) {
+    const HalfedgeId across = mesh_.twin(Mesh::next(h));
+    old_.push_back(Mesh::triangle(h));
+    link_.push_back({mesh_.target(h), mesh_.opposite(h), std::nullopt});
+    if (across.valid()) link_.back().outside = triangle(Mesh::triangle(across));
+  }
+}
+
+/// Most moves are within the limits, whatever was before.
+bool Guard::star_may_have(const GuardValues& after) {
+  if (after.are_within(least_of_star())) return true;
+  if (star_) return false;
+  star_ = around(old_);
+  star_->take(limits_->for_steps);
+  return after.are_within(*star_);
+}
+
 /// The move changes the triangles of the star. Their pairs are with each other and with the triangles across the link.
+/// A refusal needs one measure, so those that take long come last.
 bool Guard::allows_move(VertexId v, const WeightedPoint& p) {
   moving_ = v, place_ = p;
   if (has_depth()) there_ = depth_at(p, (*depths_)[v].near);
-  old_.clear();
+  if (link_.empty()) find_link(v);
   shapes_.clear();
   GuardValues after;
-  for (const HalfedgeId h : mesh_.star(v)) {
-    old_.push_back(Mesh::triangle(h));
-    shapes_.push_back(triangle({v, mesh_.target(h), mesh_.opposite(h)}, true));
-    const Triangle& t = shapes_.back();
-    after.take(alone(t, limits_->for_steps));
-    if (shapes_.size() > 1) after.take(of_pair(t, 0, shapes_[shapes_.size() - 2]));
-    const HalfedgeId across = mesh_.twin(Mesh::next(h));
-    if (across.valid()) after.take(of_pair(t, 1, triangle(Mesh::triangle(across))));
+  for (const LinkEdge& edge : link_) {
+    shapes_.push_back(triangle({v, edge.from, edge.to}, true));
+    take_alone(after, shapes_.back(), least_of_star());
   }
-  if (!mesh_.is_boundary(v)) after.take(of_pair(shapes_.front(), 0, shapes_.back()));
-  if (!after.are_within(limits_->for_steps)) {
-    if (!star_) star_ = around(old_);
-    if (!after.hold(*star_, limits_->for_steps)) return false;
+  if (!star_may_have(after)) return false;
+  const auto each_pair = [&](const auto& use) {
+    for (std::size_t i = 0; i < link_.size(); ++i) {
+      if (i > 0) use(shapes_[i], 0, shapes_[i - 1]);
+      if (link_[i].outside) use(shapes_[i], 1, *link_[i].outside);
+    }
+    if (!mesh_.is_boundary(v)) use(shapes_.front(), 0, shapes_.back());
+  };
+  each_pair([&](const Triangle& s, std::size_t k, const Triangle& t) { take_pair(after, s, k, t); });
+  if (!star_may_have(after)) return false;
+  if (limits_->has_flow) {
+    for (Triangle& t : shapes_) add_cell(t);
+    each_pair([&](const Triangle& s, std::size_t k, const Triangle& t) { take_link(after, s, k, t); });
+    if (!star_may_have(after)) return false;
   }
   if (!reads_stars()) return true;
   const GuardValues cells = cells_around(v, true);
@@ -258,6 +284,7 @@ bool Guard::allows(const InsertionPlan& plan) {
 
 void Guard::begin_flips(const Part& part) {
   part_ = part;
+  link_.clear();
   touched_.clear();
   corners_.clear();
   before_ = {};
@@ -317,7 +344,9 @@ GuardValues Guard::across(HalfedgeId h, const WeightedPoint& beyond) const {
   outside.cell = flow_cell(outside.at[0], outside.at[1], outside.at[2]);
   std::size_t k = 0;
   while (mesh_.corners(Mesh::triangle(h)).at(k) != mesh_.origin(h)) ++k;
-  return of_pair(inside, k, outside);
+  GuardValues v;
+  take_pair_and_link(v, inside, k, outside);
+  return v;
 }
 
 std::size_t Guard::count_beyond(const GuardValues& limits, Executor* executor) const {

@@ -54,7 +54,7 @@ class Guard {
 
   /// Say whether these changes are within the guard: v moves to p, a plan is committed. Call begin_step() before the
   /// moves that one step tries.
-  void begin_step() { star_.reset(), cells_.reset(); }
+  void begin_step() { link_.clear(), star_.reset(), cells_.reset(); }
   [[nodiscard]] bool allows_move(VertexId v, const WeightedPoint& p);
   [[nodiscard]] bool allows(const RemovalPlan& plan);
   [[nodiscard]] bool allows(const InsertionPlan& plan);
@@ -95,19 +95,30 @@ class Guard {
     std::array<Vec3, 3> at = {};
     Corners corners = {};
   };
+  /// An edge across from the vertex that moves, with the triangle on its other side, if there is one.
+  struct LinkEdge {
+    VertexId from, to;
+    std::optional<Triangle> outside;
+  };
   /// A depth of the field, and the triangle of the field in which it was found.
   struct Depth {
     double value = 0;
     TriangleId near;
   };
   /// A triangle of the mesh; or of plans, where the vertex `moving_` (invalid: a new one) is at `place_`.
+  /// It lacks the cell for flow links.
   [[nodiscard]] Triangle triangle(const Corners& corners, bool of_plan = false) const;
+  void add_cell(Triangle& t) const;
   [[nodiscard]] Triangle triangle(TriangleId t) const;
+  /// These take the values of a triangle, of two triangles that share edge k of s, and of the flow link between those.
   /// The values that are not below `limits` may be infinite: most need no inverse cosine to show that.
-  [[nodiscard]] GuardValues alone(const Triangle& t, const GuardValues& limits) const;
-  /// Returns the values of two triangles that share edge k of s.
-  [[nodiscard]] GuardValues of_pair(const Triangle& s, std::size_t k, const Triangle& t) const;
-  [[nodiscard]] FlowLink link_across(const Triangle& s, std::size_t k, const Triangle& t) const;
+  void take_alone(GuardValues& v, const Triangle& t, const GuardValues& limits) const;
+  static void take_pair(GuardValues& v, const Triangle& s, std::size_t k, const Triangle& t);
+  void take_link(GuardValues& v, const Triangle& s, std::size_t k, const Triangle& t) const;
+  void take_pair_and_link(GuardValues& v, const Triangle& s, std::size_t k, const Triangle& t) const {
+    take_pair(v, s, k, t);
+    if (limits_->has_flow) take_link(v, s, k, t);
+  }
   /// Returns the values of t and of its pairs with neighbors, except those that are listed.
   [[nodiscard]] GuardValues around(TriangleId t, const GuardValues& limits,
                                    std::span<const TriangleId> except = {}) const;
@@ -117,6 +128,10 @@ class Guard {
   /// Returns the values of the cells of v and its neighbors.
   [[nodiscard]] GuardValues cells_around(VertexId v, bool moved) const;
   [[nodiscard]] bool allows(std::span<const TriangleId> old, std::span<const Corners> fresh);
+  void find_link(VertexId v);
+  /// Says whether values of the star after a move are within the limits, or not worse than before.
+  [[nodiscard]] bool star_may_have(const GuardValues& after);
+  [[nodiscard]] const GuardValues& least_of_star() const { return star_ ? *star_ : limits_->for_steps; }
   [[nodiscard]] bool has_depth() const { return limits_->depth != nullptr; }
   [[nodiscard]] Depth depth_at(const WeightedPoint& p, TriangleId near) const;
 
@@ -127,12 +142,15 @@ class Guard {
   std::shared_ptr<IdVector<VertexId, Depth>> depths_;  // of all parts; if there are depths
   VertexId moving_;
   WeightedPoint place_;
-  Depth there_;                              // at place_
-  std::optional<GuardValues> star_, cells_;  // of the present step, before it
-  Part part_;                                // of the present step
-  std::vector<TriangleId> touched_;          // by flips
-  std::vector<VertexId> corners_;            // of these, if cells are measured
-  GuardValues before_;                       // of both
+  Depth there_;  // at place_
+  // Of the present step, before it.
+  std::vector<LinkEdge> link_;
+  std::optional<GuardValues> star_;  // the worse of these and the limits
+  std::optional<GuardValues> cells_;
+  Part part_;                        // of the present step
+  std::vector<TriangleId> touched_;  // by flips
+  std::vector<VertexId> corners_;    // of these, if cells are measured
+  GuardValues before_;               // of both
   mutable CellRing ring_;
   std::vector<TriangleId> old_;
   std::vector<Corners> fresh_;

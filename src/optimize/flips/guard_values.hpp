@@ -32,6 +32,7 @@ struct GuardValues {
   alignas(64) std::array<double, kMeasures + 1> value;
 
   GuardValues() { value.fill(std::numeric_limits<double>::infinity()); }
+  void take(Measure m, double x) { value[m] = x < value[m] ? x : value[m]; }
   /// Takes the worse of the two, measure by measure.
   void take(const GuardValues& other) {
     for (std::size_t i = 0; i < value.size(); ++i) value[i] = other.value[i] < value[i] ? other.value[i] : value[i];

@@ -207,6 +207,35 @@ TEST(Guard, RefusesAWorseRatioOfAnglesBeyondTheLimitAlone) {
   EXPECT_GT(refused, 100u);
 }
 
+TEST(Guard, AnswersEachMoveOfAStepAsIfItWereTheFirst) {
+  const Mesh mesh = *random_mesh({200, 5, {}});
+  const WorkingUnits units;
+  const auto limits = std::make_shared<GuardLimits>();
+  limits->has_flow = true;
+  GuardValues& least = limits->for_steps;
+  least.value.fill(-std::numeric_limits<double>::infinity());
+  least.value[GuardValues::sine] = 0.1;
+  least.value[GuardValues::areas] = 0.4;
+  least.value[GuardValues::orthogonality] = -0.3;
+  least.value[GuardValues::link] = 0.4;
+  Guard guard(mesh, units, limits, true), fresh(mesh, units, limits, true);
+  Rng rng(3);
+  std::size_t allowed = 0, refused = 0;
+  for (const VertexId v : mesh.vertices()) {
+    guard.begin_step();
+    for (int i = 0; i < 10; ++i) {
+      const auto step = [&] { return 0.02 * (static_cast<double>(rng.below(1000)) / 500 - 1); };
+      const WeightedPoint from = mesh.point(v), to = {from.x + step(), from.y + step(), from.w};
+      fresh.begin_step();
+      const bool may = fresh.allows_move(v, to);
+      EXPECT_EQ(guard.allows_move(v, to), may) << v.index;
+      ++(may ? allowed : refused);
+    }
+  }
+  EXPECT_GT(allowed, 100u);
+  EXPECT_GT(refused, 100u);
+}
+
 /// A step of refinement between quadrilaterals, with a corner of the large one moved. All its triangles have a right
 /// angle.
 ///
