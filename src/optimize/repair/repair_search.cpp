@@ -112,13 +112,13 @@ bool RepairSearch::assigns_weights(TriangleId seed) const {
   return true;
 }
 
-TrialResult RepairSearch::tried(const Neighborhood& around, const Edit& edit) {
+/// Trials that the memo has count, too, so that a search with it ends as one without.
+void RepairSearch::count_trial(const Neighborhood& around, const Edit& edit) {
   const bool program = std::holds_alternative<AssignWeights>(edit);
   const std::size_t visits = (settings_.guard != nullptr ? kVisitsByGuard : 1) *
                              (2 * bad_.size() > work_.mesh.n_triangles() ? kVisitsWhereMostAreBad : 1) *
                              around.mesh.n_triangles();
   run_.count_trials(program ? 1 + kTrialsOfAProgram : 1, visits);
-  return try_edit(around, edit, settings_, work_.units, false);
 }
 
 /// Returns the line at a corner of the seed that must be split most urgently, whatever is done inside.
@@ -150,7 +150,8 @@ std::optional<Edit> RepairSearch::choose_forced(const Neighborhood& around, Tria
   std::vector<Tried> all;
   for (const Edit& edit : splits_of(around, h, conflict->split_at)) {
     if (run_.repair_trials_left() == 0 || run_.asked_to_stop(0)) return std::nullopt;
-    const TrialResult result = tried(around, edit);
+    count_trial(around, edit);
+    const TrialResult result = try_edit(around, edit, settings_, work_.units, false);
     if (result.valid) all.push_back({edit, result.defect});
   }
   return finer(std::move(all));
@@ -164,19 +165,24 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
   std::vector<Tried> all;
   const Allowed allowed = {assigns_weights(seed), settings_.options.repair == Repair::vertices,
                            repairs_split_lines(settings_, work_.mesh.space()), settings_.policy.insertion_place};
-  for (const auto& tier : edits_for(around, allowed, rng_)) {
-    for (const Edit& edit : tier) {
+  TrialMemo::Results& memo = memo_.at(around);
+  const auto tiers = edits_for(around, allowed, rng_);
+  for (std::size_t i = 0; i < tiers.size() && !best; ++i) {
+    for (std::size_t k = 0; k < tiers[i].size(); ++k) {
+      const Edit& edit = tiers[i][k];
       if (run_.repair_trials_left() == 0 || run_.asked_to_stop(0)) return best;
       if (std::holds_alternative<AssignWeights>(edit)) weighed_.push_back(seed);
-      const TrialResult result = tried(around, edit);
-      if (!result.valid) continue;
-      all.push_back({edit, result.defect});
-      if (!helps(least, result.defect)) continue;
+      count_trial(around, edit);
+      std::optional<TrialResult>& result = memo[{i, k}];
+      if (!result || std::holds_alternative<Perturb>(edit))
+        result = try_edit(around, edit, settings_, work_.units, false);
+      if (!result->valid) continue;
+      all.push_back({edit, result->defect});
+      if (!helps(least, result->defect)) continue;
       best = edit;
-      least = result.defect;
+      least = result->defect;
       if (least == LocalDefect{}) break;
     }
-    if (best) break;
   }
   if (best) {
     failures_ = 0;

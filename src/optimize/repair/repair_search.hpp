@@ -13,6 +13,7 @@
 #include "base/rng.hpp"
 #include "optimize/flips/flipper.hpp"
 #include "optimize/repair/trial.hpp"
+#include "optimize/repair/trial_memo.hpp"
 #include "optimize/run/run.hpp"
 #include "temper/detail/necessity.hpp"
 
@@ -21,11 +22,13 @@ namespace temper {
 class RepairSearch {
  public:
   /// `seed`: of all random choices. `asks_programs`: linear programs find weights for places that nothing else cures.
-  RepairSearch(WorkingCopy& work, Run& run, Flipper& flipper, std::uint64_t seed, bool asks_programs)
+  /// `memo`: trials of this run with the same settings.
+  RepairSearch(WorkingCopy& work, Run& run, Flipper& flipper, TrialMemo& memo, std::uint64_t seed, bool asks_programs)
       : work_(work),
         settings_(flipper.settings()),
         run_(run),
         flipper_(flipper),
+        memo_(memo),
         rng_(seed),
         asks_programs_(asks_programs) {}
 
@@ -46,7 +49,7 @@ class RepairSearch {
   std::optional<Edit> choose_forced(const Neighborhood& around, TriangleId seed);
   std::optional<Edit> sideways(std::vector<Tried> tried, LocalDefect before);
   static std::optional<Edit> finer(std::vector<Tried> tried);
-  [[nodiscard]] TrialResult tried(const Neighborhood& around, const Edit& edit);
+  void count_trial(const Neighborhood& around, const Edit& edit);
   void find_bad();
   [[nodiscard]] bool is_changed(TriangleId t) const {
     return std::binary_search(changed_->begin(), changed_->end(), t);
@@ -56,6 +59,7 @@ class RepairSearch {
   const Settings& settings_;
   Run& run_;
   Flipper& flipper_;
+  TrialMemo& memo_;
   Rng rng_;
   const bool asks_programs_;
   int failures_ = 0;                 // places without a helpful edit since the last success

@@ -344,9 +344,9 @@ void Driver::end_round(const Phase& phase, const Measure& measure) {
   recorder_.begin_sweep(run_.report.sweeps + 1);
 }
 
-bool Driver::repair(std::uint64_t seed, bool asks_programs) {
+bool Driver::repair(TrialMemo& memo, std::uint64_t seed, bool asks_programs) {
   EnergyPhase phase(work_, settings_, state_, run_, kPolish);  // puts repairs into the history
-  RepairSearch search(work_, run_, flipper_, seed, asks_programs);
+  RepairSearch search(work_, run_, flipper_, memo, seed, asks_programs);
   bool changed = false;
   RunningEnergyAndBad totals;
   while (run_.sweeps_left() && search.improve_one_place()) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "optimize/flips/flipper.hpp"
+#include "optimize/repair/trial_memo.hpp"
 #include "optimize/stages/phase.hpp"
 #include "optimize/sweep/sweeper.hpp"
 
@@ -34,8 +35,8 @@ class Driver {
   int run(Phase& phase, int sweep);
 
   /// Searches locally for repairs of triangles that all restarts left bad. Returns false if nothing changed.
-  /// `asks_programs`: use linear programs for weights.
-  bool repair(std::uint64_t seed, bool asks_programs = false);
+  /// `asks_programs`: use linear programs for weights. `memo`: trials of this run.
+  bool repair(TrialMemo& memo, std::uint64_t seed, bool asks_programs = false);
   /// Makes the places that violate the criterion good, with as few changes as possible. Returns as restart().
   int mend();
   /// Cures bad triangles, then searches for a mesh with fewer vertices.

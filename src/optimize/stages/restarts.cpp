@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "energy/whole_mesh.hpp"
 #include "optimize/repair/repair_search.hpp"
+#include "optimize/repair/trial_memo.hpp"
 #include "optimize/run/changes.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/stages/driver.hpp"
@@ -253,6 +254,7 @@ Candidate repaired(Candidate best, const Settings& settings, SweepState& state, 
   if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, state.model))) return best;
   // If new or removed vertices cured nothing, they are undone, which takes a copy.
   const bool in_place = settings.options.repair != Repair::vertices && are_apart(best, settings);
+  TrialMemo memo;
   for (std::uint64_t i = 0; i < searches && !is_done(best); ++i) {
     const BestBefore kept(run.best_before, in_place ? nullptr : &best.work);
     const bool asks_programs = i == kPrograms && settings.lp != nullptr;
@@ -263,7 +265,7 @@ Candidate repaired(Candidate best, const Settings& settings, SweepState& state, 
     Candidate& now = in_place ? best : copy;
     Driver driver(now.work, settings, state, run);
     if (start) driver.recorder().returned_to(start->sweep);
-    const bool changed = driver.repair(settings.policy.seed + i, asks_programs);
+    const bool changed = driver.repair(memo, settings.policy.seed + i, asks_programs);
     now.sweep = run.report.sweeps;
     if (in_place) continue;
     if (changed && has_gained(now, best, settings, state.model)) {
@@ -291,6 +293,7 @@ Candidate refined(Candidate best, const Settings& settings, SweepState& state, R
   Candidate last = best;
   double factor = 1;
   bool is_best = true;
+  TrialMemo memo;
   for (int i = 0; i < kRounds && has_bad(best, settings) && run.goes_on(); ++i, factor *= kSmaller) {
     const BestBefore kept(run.best_before, &best.work);
     Driver driver(last.work, settings, state, run);
@@ -298,7 +301,7 @@ Candidate refined(Candidate best, const Settings& settings, SweepState& state, R
     if (driver.refine_where_bad(factor) == 0) continue;
     last.sweep = driver.restart(restarts(settings, last.work.mesh).front(), true);
     if (has_bad(last, settings) && run.goes_on()) {
-      driver.repair(settings.policy.seed);
+      driver.repair(memo, settings.policy.seed);
       last.sweep = run.report.sweeps;
     }
     is_best = replaces(last.work, best.work, Requirement::fewer_bad, settings, state.model);

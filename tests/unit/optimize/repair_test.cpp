@@ -1,6 +1,7 @@
 // Repairs cure the triangles that sweeps leave bad, place by place, and make nothing else worse.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "optimize/repair/local_copy.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/trial.hpp"
+#include "optimize/repair/trial_memo.hpp"
 #include "optimize/stages/restarts.hpp"
 #include "optimize/step/vertex_step.hpp"
 #include "support/instances.hpp"
@@ -327,6 +329,42 @@ TEST(Neighborhood, IsAValidPartWithItsRimFrozen) {
   }
   EXPECT_GT(frozen, 0u);
   EXPECT_EQ(neighborhood_of(WorkingCopy::part(mesh), TriangleId(0), 100).mesh.n_triangles(), mesh.n_triangles());
+}
+
+TEST(TrialMemo, KnowsAPlaceByAllThatATrialDependsOn) {
+  const Mesh mesh = *annulus({});
+  const Neighborhood around = neighborhood_of(WorkingCopy::part(mesh), TriangleId(0), 2);
+  ASSERT_FALSE(around.beyond.empty());
+  std::size_t k = 0;
+  while (around.outside.at(k).points.empty()) ++k;
+  TrialMemo memo;
+  memo.at(around)[{0, 0}] = TrialResult();
+  const VertexId v(0);
+  const std::vector<std::function<void(Neighborhood&)>> changes = {
+      [](Neighborhood& n) { n.seed = TriangleId(n.seed.index + 1); },
+      [&](Neighborhood& n) { n.mesh.set_weight(v, 1e-300); },
+      [&](Neighborhood& n) { n.mesh.set_fixed(v, !n.mesh.is_fixed(v)); },
+      [](Neighborhood& n) { n.mesh.set_constrained(HalfedgeId(0), true); },
+      [](Neighborhood& n) { n.mesh.set_face(HalfedgeId(0)); },
+      [](Neighborhood& n) { n.mesh.set_joint(HalfedgeId(0)); },
+      [](Neighborhood& n) { n.mesh.set_diagonal(HalfedgeId(0)); },
+      [](Neighborhood& n) { n.frozen[0] = 1 - n.frozen[0]; },
+      [](Neighborhood& n) { n.beyond[0].x += 1e-9; },
+      [](Neighborhood& n) { ++n.region_beyond[0]; },
+      [k](Neighborhood& n) { n.outside[k].points[0].y += 1e-9; },
+      [k](Neighborhood& n) { n.outside[k].is_closed = !n.outside[k].is_closed; },
+      [k](Neighborhood& n) { n.outside[k].is_outside = !n.outside[k].is_outside; },
+      [&](Neighborhood& n) {
+        n.divided.emplace(v, DividedEdge{{0, 0}, {1, 0}});
+      },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    Neighborhood other = around;
+    changes[i](other);
+    EXPECT_TRUE(memo.at(other).empty()) << i;
+    memo.at(other)[{0, 0}] = TrialResult();  // differs from all that follow
+  }
+  EXPECT_EQ(memo.at(around).size(), 1u);
 }
 
 TEST(Trial, RemovesNoVertexThatIsFixedFrozenOfTheBoundaryOrOfALine) {
