@@ -22,7 +22,7 @@ TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "crossing", "dual"
                     "equal_crossing");
 TEMPER_PYTHON_NAMES(temper::Constraints, "well_centered", "heights_only", "regular", "coefficients", "distances",
                     "completely_well_centered");
-TEMPER_PYTHON_NAMES(temper::WeightGoal, "margin", "change", "elastic", "center", "accuracy", "least");
+TEMPER_PYTHON_NAMES(temper::WeightGoal, "margin", "change", "elastic", "center", "accuracy", "least", "fewest");
 
 namespace temper::python {
 namespace {

@@ -237,6 +237,7 @@ enum class WeightGoal {
   center,    ///< Analytic center: the greatest product of all h/ℓ, d/ℓ, 1 − d/ℓ or dual lengths/ℓ
   accuracy,  ///< Least sum of squared offsets with the requested margin, or with half of the best one
   least,  ///< Least sum of squared changes of d/ℓ over all edges, with the requested margin, or with half of the best
+  fewest,  ///< As elastic, with few violated constraints instead of the least sum
 };
 
 /// For `regular`, center and accuracy also keep crossings d between −kCrossingReach ℓ and (1 + kCrossingReach) ℓ.
@@ -334,7 +335,7 @@ struct WeightReport {
   std::size_t programs = 0;            ///< Number of regions, each with its own linear program
   std::size_t largest = 0;             ///< Number of triangles of the largest region
   IdVector<VertexId, double> weights;  ///< Weight of each vertex of the mesh
-  std::vector<Violation> violations;   ///< Violations of elastic weights, worst first
+  std::vector<Violation> violations;   ///< Violations of elastic and fewest, worst first
   /// Certificate against the margin. It may have no terms. If infeasible, it refutes margin 0. For `regular` it refutes
   /// the requested margin in the plane, but at most kRefutedDual and at least kLeastRefutedDual; on the sphere
   /// kLeastRefutedDual. If only the requested margin cannot be attained, it refutes that margin.
@@ -350,8 +351,8 @@ struct WeightReport {
 
 /// Finds weights for a mesh with fixed positions and connectivity. The answers of solvers are not trusted: exact
 /// predicates and check_certificate decide. `convex` is for center, accuracy and least, which take the linear programs
-/// only if it finds no weights. Errors: a margin out of range, a goal without its solver. Precondition: no erased
-/// triangles.
+/// only if it finds no weights, and for fewest. If elastic has it, regions with more than `whole` triangles or a rim
+/// take it. Errors: a margin out of range, a goal without its solver. Precondition: no erased triangles.
 [[nodiscard]] Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options = {},
                                                   ConvexSolver* convex = nullptr);
 /// The largest difference between the crossings d/ℓ of an interface edge, as its two sides have them; 0 without

@@ -67,7 +67,7 @@ class BestMargin(Record):
 
 @dataclasses.dataclass(frozen=True)
 class Violation(Record):
-    """A constraint that elastic weights violate."""
+    """A constraint that the weights of elastic or fewest violate."""
 
     constraint: WeightConstraint
     value: float
@@ -145,7 +145,7 @@ class WeightReport(Record):
     weights: npt.NDArray[np.float64]
     """Weight of each vertex of the mesh [length²]: ``mesh.weights = report.weights``."""
     violations: list[Violation]
-    """Violations of elastic weights, worst first."""
+    """Violations of the goals elastic and fewest, worst first."""
     certificate: Certificate
     optimality: Optimality | None = None
     """Proof that the weights are best; only for center and accuracy, if solved."""
@@ -165,7 +165,7 @@ class WeightReport(Record):
 def find_weights(
     mesh: AnyMeshLike,
     *,
-    goal: Literal["margin", "change", "elastic", "center", "accuracy", "least"] = "change",
+    goal: Literal["margin", "change", "elastic", "center", "accuracy", "least", "fewest"] = "change",
     margin: float = 0.01,
     from_input: bool = False,
     whole: int = 3000,
@@ -182,14 +182,15 @@ def find_weights(
     Parameters
     ----------
     mesh : Mesh, TetMesh, or of another library
-    goal : {"change", "margin", "elastic", "center", "accuracy", "least"}
+    goal : {"change", "margin", "elastic", "center", "accuracy", "least", "fewest"}
         change: the least change for the requested margin. margin: the best margin, and the least change for the
         requested margin or for half of the best one. elastic: the least violation, but at least half of the best margin
         if that is positive; then the least change. center: the greatest product of all h/ℓ, d/ℓ and 1 − d/ℓ, or of all
         dual lengths/ℓ. accuracy: the least sum of squared offsets between the midpoints of edges and their duals, with
         the requested margin or half of the best one. center and accuracy are unique, and come with a proof. least: the
         least sum of squared changes of d/ℓ over all edges, with the requested margin or a smaller one. If there are no
-        such weights, its weights violate the constraints little.
+        such weights, its weights violate the constraints little. fewest: as elastic, with few violated constraints
+        instead of the least violation.
     margin : float
         Margin t in [0, 1/2): all h ≥ tℓ and tℓ ≤ d ≤ (1 − t)ℓ, or the inequalities of the other constraints.
     from_input : bool
@@ -210,7 +211,7 @@ def find_weights(
         10 and 0.5 for unknowns at vertices, 10 and 30 for two-point fluxes, 20 and 18 for diagonal stars.
     tensor : sequence of float, (m, 3) array, or dict of region to sequence, optional
         Diffusion tensors, as in ``optimize``: constraints hold in their metrics. If they differ, weights keep the
-        equations of interfaces, and ``corner_weights`` has them; goals center, accuracy and least are refused.
+        equations of interfaces, and ``corner_weights`` has them; goals center, accuracy, least and fewest are refused.
 
     Notes
     -----

@@ -15,6 +15,7 @@ struct RegionChange {
   std::vector<double>
       change;  ///< of the potential (potential.hpp) of each free vertex; exactly 0 where nothing has to change
   std::vector<WeightConstraint> conflict = {};  ///< of least_squares, if there are no weights: where the conflict is
+  double violation = 0;                         ///< of least_squares: the sum of all violations
 };
 
 /// The constraints on the weights of a region.
@@ -32,10 +33,15 @@ struct RegionProblem {
 /// Minimizes Σ |Δw_i − Δw_j| / (2ℓ) over the edges of the region, subject to the margin.
 [[nodiscard]] RegionChange least_change(const RegionProblem& problem, const Region& region, LpSolver& solver);
 
-/// Minimizes Σ (Δd/ℓ)² over the edges of the region, subject to the margin. If `elastic`, constraints that contradict
-/// each other are violated, with the least sum up to the solver's weighting.
+/// Constraints that least_squares may violate, down to the floor.
+enum class MayViolate {
+  none,
+  least,  ///< with the least sum, up to the solver's weighting
+  few,    ///< then programs in which a violation costs less, the larger it was: the fewest violations of all
+};
+/// Minimizes Σ (Δd/ℓ)² over the edges of the region, subject to the margin.
 [[nodiscard]] RegionChange least_squares(const RegionProblem& problem, const Region& region, ConvexSolver& solver,
-                                         bool elastic = false);
+                                         MayViolate may_violate = MayViolate::none);
 
 /// Minimizes the violation of the margin, summed over h/ℓ, d/ℓ, 1 − d/ℓ and dual length/ℓ. Among these weights it takes
 /// the weights with the least change. No weights: `floor` is above what the region can have.

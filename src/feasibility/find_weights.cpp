@@ -28,8 +28,13 @@ namespace temper {
 namespace {
 
 constexpr int kHalvings = 30;      // of the requested margin: down to the rounding of the programs
-constexpr double kLessMargin = 8;  // the next margin of least weights, whose bound may be far above what they can have
+constexpr double kLessMargin = 8;  // of the next margin after a bound that may be far above what weights can have
 constexpr double kKept = 1e-9;     // a margin is kept if at most this is lacking: the solvers' tolerance
+
+bool may_violate(WeightGoal goal) { return goal == WeightGoal::elastic || goal == WeightGoal::fewest; }
+bool needs_convex(WeightGoal goal) {
+  return is_convex(goal) || goal == WeightGoal::least || goal == WeightGoal::fewest;
+}
 
 double value(const Demand& demand, const WeightConstraint& constraint, const VertexWeights& weights) {
   return value_of(demand.linear_form(constraint), [&](VertexId v) { return potential_of(demand.space(), weights[v]); });
@@ -43,7 +48,7 @@ class WeightFinder {
   WeightReport run() {
     if (options_.goal == WeightGoal::margin) measure_components();
     double asked = std::min(options_.margin, demand_.is_stretchable() ? small_margin_ : small_margin_ / 2);
-    if (options_.goal == WeightGoal::elastic) {
+    if (is_elastic()) {
       violate_least(asked);
       return report(asked);
     }
@@ -52,14 +57,15 @@ class WeightFinder {
       regions_.attempt(asked, asked);
       if (regions_.failures() == 0 || regions_.must_stop()) break;
       note_bound(asked);
-      if (is_least() && bound_->best.margin <= kNoMargin) break;
-      asked = std::min(bound_->best.margin / 2, is_least() ? asked / kLessMargin : kUnbounded);
+      if (bound_is_of_conflict_ && bound_->best.margin <= kNoMargin) break;
+      asked = next_margin(asked);
     }
     return report(asked);
   }
 
  private:
   [[nodiscard]] bool is_least() const { return options_.goal == WeightGoal::least; }
+  [[nodiscard]] bool is_elastic() const { return may_violate(options_.goal); }
 
   /// The certificate of a bound that rules out all weights.
   [[nodiscard]] Certificate refute_all(const Bound& bound) const {
@@ -109,18 +115,23 @@ class WeightFinder {
     for (RegionResult& result : regions_.results()) {
       if (result.change) continue;
       if (result.bound.best.status != LpStatus::optimal) result.bound.best.margin = 0;
-      bound_is_exact_ = bound_is_exact_ && !result.region.has_rim && !is_least();
+      bound_is_exact_ = bound_is_exact_ && !result.region.has_rim && !regions_.has_bound_of_conflict(result.region);
       if (bound_ && bound_->best.margin <= result.bound.best.margin) continue;
       bound_ = result.bound;
+      bound_is_of_conflict_ = regions_.has_bound_of_conflict(result.region);
     }
-    // The solver contradicts itself: nothing is known. For least weights the bound is of the conflict alone.
-    if (bound_->best.margin >= asked && !is_least()) bound_->best.margin = 0;
+    // The solver contradicts itself: nothing is known.
+    if (bound_->best.margin >= asked && !bound_is_of_conflict_) bound_->best.margin = 0;
     const bool none = bound_->best.margin < kNoMargin;
-    if (refuted_ && (!none || refutes_all_ || !is_least())) return;
+    if (refuted_ && (!none || refutes_all_ || !bound_is_of_conflict_)) return;
     refutes_all_ = none;
     refuted_ = refutes_all_ ? refute_all(*bound_) : certify_bound(*bound_, asked);
   }
 
+  /// The margin to try after `bound_`, which other regions may be far below if it is of a conflict.
+  [[nodiscard]] double next_margin(double asked) const {
+    return std::min(bound_->best.margin / 2, bound_is_of_conflict_ ? asked / kLessMargin : kUnbounded);
+  }
   [[nodiscard]] Certificate certify_bound(const Bound& bound, double margin) const {
     if (bound.best.status != LpStatus::optimal) return {};
     return certify(demand_, bound, margin);
@@ -133,15 +144,11 @@ class WeightFinder {
     regions_.attempt(asked, floor);
     for (int round = 0; round < kHalvings && regions_.failures() > 0; ++round) {
       note_bound(floor);
-      floor = bound_->best.margin / 2;
+      floor = next_margin(floor);
       if (floor <= kNoMargin) break;
       regions_.attempt(asked, floor);
     }
-    for (RegionResult& result : regions_.results()) {
-      if (result.change) continue;
-      RegionChange change = least_violation(regions_.problem(asked), result.region, solver_);
-      if (change.status == LpStatus::optimal) result.change = std::move(change);
-    }
+    regions_.violate(asked);
   }
 
   WeightReport report(double asked) {
@@ -157,7 +164,7 @@ class WeightFinder {
     const bool found = all_good && asked > kNoMargin && regions_.failures() == 0;
     judge_margin(r, found);
     judge(r, found);
-    if (options_.goal == WeightGoal::elastic || (is_least() && !r.solved)) add_violations(r);
+    if (is_elastic() || (is_least() && !r.solved)) add_violations(r);
     return r;
   }
 
@@ -207,6 +214,7 @@ class WeightFinder {
         r.solved = r.verdict == Feasibility::feasible && r.asked == options_.margin;
         break;
       case WeightGoal::elastic:
+      case WeightGoal::fewest:
         r.solved = regions_.failures() == 0;
         break;
       case WeightGoal::center:
@@ -233,6 +241,7 @@ class WeightFinder {
   std::optional<Bound> worst_component_;
   std::optional<Bound> bound_;  ///< the least
   bool bound_is_exact_ = true;
+  bool bound_is_of_conflict_ = false;
   std::optional<Certificate> refuted_;
   bool refutes_all_ = false;  ///< `refuted_` is about all weights, not about a margin
 };
@@ -274,16 +283,16 @@ WeightReport find_weights(const Demand& demand, LpSolver& solver, const WeightOp
 }
 
 std::optional<InputError> expect_goal_across_interfaces(const WeightOptions& options, bool has_interfaces) {
-  if (!has_interfaces || (!is_convex(options.goal) && options.goal != WeightGoal::least)) return std::nullopt;
+  if (!has_interfaces || !needs_convex(options.goal)) return std::nullopt;
   return InputError{ErrorCode::invalid_option, "",
-                    "goal: center, accuracy and least have no equations for interfaces between tensors. Next: goal "
-                    "change or elastic"};
+                    "goal: center, accuracy, least and fewest have no equations for interfaces between tensors. Next: "
+                    "goal change or elastic"};
 }
 
 std::optional<InputError> expect_goal(const WeightOptions& options, const ConvexSolver* convex) {
-  if ((is_convex(options.goal) || options.goal == WeightGoal::least) && convex == nullptr)
+  if (needs_convex(options.goal) && convex == nullptr)
     return InputError{ErrorCode::invalid_option, "",
-                      "goal: center, accuracy and least need a solver of convex programs"};
+                      "goal: center, accuracy, least and fewest need a solver of convex programs"};
   const bool of_scheme =
       options.constraints == Constraints::coefficients || options.constraints == Constraints::distances;
   if (is_convex(options.goal) && of_scheme) {
@@ -296,7 +305,7 @@ std::optional<InputError> expect_goal(const WeightOptions& options, const Convex
     return InputError{ErrorCode::invalid_option, "",
                       "offset_factor, boundary_offset_factor: expected finite numbers that are not negative"};
   }
-  const bool elastic = options.goal == WeightGoal::elastic;
+  const bool elastic = may_violate(options.goal);
   if (options.margin < 0.5 && (elastic ? options.margin >= 0 : options.margin > 0)) return std::nullopt;
   return InputError{ErrorCode::invalid_option, "",
                     "margin: expected a number above 0 and below 0.5, found " + std::to_string(options.margin)};

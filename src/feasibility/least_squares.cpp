@@ -7,7 +7,6 @@
 // d/ℓ is replaced by its linear part at equal σ (offset_form).
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "feasibility/best_weights.hpp"
 #include "feasibility/change.hpp"
@@ -22,6 +21,10 @@ constexpr double kInConflict = 1e-3;
 // The cost of a mean violation of one, over the mean square of Δd/ℓ: so large that only contradictions are violated.
 constexpr double kViolation = 1e3;
 
+constexpr int kReweightings = 4;       // more programs hardly lower the number of violations
+constexpr double kLeastUnit = 1e-3;    // of violations, for margins below it
+constexpr double kNoViolation = 1e-9;  // smaller violations are the solver's tolerance
+
 class LeastSquares {
  public:
   LeastSquares(const RegionProblem& problem, const Region& region, bool elastic)
@@ -31,14 +34,44 @@ class LeastSquares {
     program_.must_stop = problem.must_stop;
     for (const WeightEdge& edge : edges_) add_square(edge);
     program_.square_constants.assign(program_.squares.size(), 0);
-    for (const WeightConstraint& c : demand_.constraints_of(region.cells, true)) add_row(c);
-    if (elastic) add_violations();
+    for (const WeightConstraint& c : demand_.constraints_of(region.cells, true)) add_row(c, p_.margin);
+    if (!elastic) return;
+    program_.violation_cost.assign(constraints_.size(), kViolation / static_cast<double>(constraints_.size()));
+    if (p_.floor == -kUnbounded) return;
+    for (const WeightConstraint& c : demand_.constraints_of(region.cells, true)) add_row(c, p_.floor);
+    program_.violation_cost.resize(constraints_.size(), kUnbounded);
   }
 
-  RegionChange solve(ConvexSolver& solver) const {
+  RegionChange solve(ConvexSolver& solver) {
+    return program_.n_columns == 0 ? RegionChange() : change_by(solver.solve(program_));
+  }
+  /// Violates few constraints (Candès, Wakin and Boyd): a violation v costs 1/(v + margin) in the next program.
+  RegionChange solve_with_few_violations(ConvexSolver& solver) {
+    if (program_.n_columns == 0) return {};
+    const std::vector<double> costs = program_.violation_cost;
+    const double unit = std::max(p_.margin, kLeastUnit);
+    ConvexSolution best = solver.solve(program_), now = best;
+    for (int i = 0; i < kReweightings && now.solved && !(p_.must_stop && p_.must_stop()); ++i) {
+      for (std::size_t row = 0; row < costs.size(); ++row)
+        program_.violation_cost[row] = costs[row] * unit / (unit + violation(now, row));
+      now = solver.solve(program_);
+      if (now.solved && n_violations(now) < n_violations(best)) best = now;
+    }
+    return change_by(best);
+  }
+
+ private:
+  [[nodiscard]] double violation(const ConvexSolution& solution, std::size_t row) const {
+    return std::max(0.0, -program_.rows.times(row, solution.primal) - program_.constants[row]);
+  }
+  [[nodiscard]] std::size_t n_violations(const ConvexSolution& solution) const {
+    std::size_t n = 0;
+    for (std::size_t row = 0; row < program_.rows.size(); ++row) n += violation(solution, row) > kNoViolation ? 1 : 0;
+    return n;
+  }
+
+  [[nodiscard]] RegionChange change_by(const ConvexSolution& solution) const {
     RegionChange result;
-    if (program_.n_columns == 0) return result;
-    const ConvexSolution solution = solver.solve(program_);
     if (!solution.solved) {
       const double most = solution.dual.empty() ? 0 : *std::max_element(solution.dual.begin(), solution.dual.end());
       for (std::size_t i = 0; i < std::min(solution.dual.size(), constraints_.size()); ++i) {
@@ -47,6 +80,7 @@ class LeastSquares {
       return result;
     }
     result.status = LpStatus::optimal;
+    for (std::size_t row = 0; row < program_.violation_cost.size(); ++row) result.violation += violation(solution, row);
     result.change.assign(region_.free.size(), 0);
     double sum = 0;
     for (std::size_t i = first_column(); i < result.change.size(); ++i)
@@ -62,7 +96,6 @@ class LeastSquares {
     return result;
   }
 
- private:
   /// The first vertex has no column if there is no rim.
   [[nodiscard]] std::size_t first_column() const { return region_.has_rim ? 0 : 1; }
 
@@ -86,32 +119,14 @@ class LeastSquares {
     if (add_entries(program_.squares, form, factor)) program_.squares.end_row();
   }
 
-  void add_row(const WeightConstraint& constraint) {
+  void add_row(const WeightConstraint& constraint, double asked) {
     const LinearForm form = demand_.linear_form(constraint);
-    const double margin = p_.margin_of(constraint, p_.margin);
+    const double margin = p_.margin_of(constraint, asked);
     if (!add_entries(program_.rows, beyond_margin(form, margin), 1)) return;
     const auto start = [&](VertexId v) { return potential_of(demand_.space(), p_.start[v]); };
     constraints_.push_back(constraint);
     program_.rows.end_row();
     program_.constants.push_back(numerator_of(form, start) - margin * scale_of(form, start));
-  }
-
-  /// Adds a column to each row, which pays for its violation.
-  void add_violations() {
-    const SparseRows rows = std::exchange(program_.rows, {});
-    program_.cost.assign(program_.n_columns, 0);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      for (std::size_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
-        program_.rows.add_entry(rows.column[k], rows.value[k]);
-      program_.rows.add_entry(static_cast<int>(program_.n_columns++), 1);
-      program_.rows.end_row();
-      program_.cost.push_back(kViolation / static_cast<double>(rows.size()));
-    }
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      program_.rows.add_entry(static_cast<int>(program_.n_columns - rows.size() + i), 1);
-      program_.rows.end_row();
-      program_.constants.push_back(0);
-    }
   }
 
   const RegionProblem& p_;
@@ -125,8 +140,10 @@ class LeastSquares {
 
 }  // namespace
 
-RegionChange least_squares(const RegionProblem& problem, const Region& region, ConvexSolver& solver, bool elastic) {
-  return LeastSquares(problem, region, elastic).solve(solver);
+RegionChange least_squares(const RegionProblem& problem, const Region& region, ConvexSolver& solver,
+                           MayViolate may_violate) {
+  LeastSquares program(problem, region, may_violate != MayViolate::none);
+  return may_violate == MayViolate::few ? program.solve_with_few_violations(solver) : program.solve(solver);
 }
 
 }  // namespace temper

@@ -19,19 +19,21 @@ struct RegionResult {
   Region region;
   std::optional<RegionChange> change;
   Bound bound;                ///< without change
-  RegionChange elastic = {};  ///< without change, for WeightGoal::least: what violates least
+  RegionChange elastic = {};  ///< without change: what violates least
 };
 
 class RegionSolver {
  public:
-  /// `convex` is for WeightGoal::least alone.
+  /// `convex` is for the goals least, fewest, and elastic, which can do without.
   RegionSolver(const Demand& demand, LpSolver& solver, const WeightOptions& options, ConvexSolver* convex)
       : demand_(demand),
         solver_(solver),
         convex_(convex),
         options_(options),
         start_(options.from_input ? demand.weights() : VertexWeights(demand.n_vertices(), 0.0)),
-        components_(components_of(demand)) {}
+        components_(components_of(demand)) {
+    if (options.goal == WeightGoal::elastic && !demand.equations_of(all_cells(demand)).empty()) convex_ = nullptr;
+  }
 
   [[nodiscard]] const VertexWeights& start() const { return start_; }
   [[nodiscard]] const std::vector<Region>& components() const { return components_; }
@@ -58,9 +60,16 @@ class RegionSolver {
     return (!demand_.allows_zero() && demand_.margin_of(cell, start_) < asked) || !demand_.is_kept(cell, start_);
   }
 
+  /// Says whether the bound of a region is of a conflict in it, as the convex program finds it.
+  [[nodiscard]] bool has_bound_of_conflict(const Region& region) const {
+    return options_.goal == WeightGoal::least || (is_elastic() && region.cells.size() > options_.whole);
+  }
+
   /// Solves all regions for a margin. With `floor` below `asked`, a region that cannot have the margin `asked` violates
   /// it down to `floor`.
   void attempt(double asked, double floor);
+  /// Finds elastic weights for the regions without weights, by the goal. They grow while that lowers violations much.
+  void violate(double asked);
   /// The weights at the start with the changes of the regions.
   [[nodiscard]] VertexWeights changed_weights() const;
 
@@ -69,8 +78,19 @@ class RegionSolver {
   [[nodiscard]] VertexMask first_mask(double asked) const;
   /// The best change of a region by the goal.
   [[nodiscard]] RegionChange change_of(const Region& region, double asked) const;
+  /// Says whether the convex program finds the elastic weights of a region. Linear programs of large regions are slow.
+  [[nodiscard]] bool is_convex(const Region& region) const {
+    return options_.goal == WeightGoal::fewest ||
+           (is_elastic() && (region.has_rim || region.cells.size() > options_.whole));
+  }
+  [[nodiscard]] bool is_elastic() const {
+    return convex_ != nullptr && (options_.goal == WeightGoal::elastic || options_.goal == WeightGoal::fewest);
+  }
+  [[nodiscard]] RegionChange violation_of(const Region& region, double asked, double floor) const;
+  /// Adds rings of vertices to the regions without weights, which may merge with others.
+  void grow_unsolved(int rings);
   /// A bound of the margin that a region without this change can have.
-  [[nodiscard]] Bound bound_without(const Region& region, const RegionChange& change) const;
+  [[nodiscard]] Bound bound_without(const Region& region, double asked, RegionChange change) const;
   std::optional<RegionResult> take_result(const Region& region);
   std::optional<RegionResult> solve(Region& region, double asked, double floor);
 

@@ -6,7 +6,11 @@
 //
 // with Q x + q the slope of squares and cost, and μ the factor of the logarithms. Newton's method for these equations
 // solves (Q + Aᵀ (y/s) A) dx = … in each iteration, a matrix with the sparsity of the mesh. Without logarithms μ falls
-// to zero by the predictor and corrector of Mehrotra.
+// to zero by the predictor and corrector of Mehrotra. A row that may be violated by v at the cost g has
+//
+//     A x + b = s − v,    y + z = g,    v z = μ,    v, z > 0
+//
+// and 1/(s/y + v/z) in the matrix. All other rows have v = 0 and z = ∞ in the same formulas.
 //
 // The start need not satisfy A x + b > 0. If no x does, the residual A x + b − s stays, and the method gives up.
 #define EIGEN_MPL2_ONLY
@@ -170,7 +174,17 @@ class InteriorPoint {
         matrix_(problem.squares, problem.rows, problem.n_columns),
         x_(Vector::Zero(static_cast<Index>(problem.n_columns))),
         s_(to_vector(problem.constants).cwiseMax(kFirstSlack)),
-        y_(s_.cwiseInverse() * (problem.barrier > 0 ? problem.barrier : first_barrier())) {}
+        y_(s_.cwiseInverse() * (problem.barrier > 0 ? problem.barrier : first_barrier())),
+        v_(Vector::Zero(s_.size())),
+        z_(Vector::Constant(s_.size(), kUnbounded)) {
+    for (std::size_t i = 0; i < problem.violation_cost.size(); ++i) {
+      const auto k = static_cast<Index>(i);
+      if (std::isinf(problem.violation_cost[i])) continue;
+      elastic_.push_back(k);
+      y_[k] = z_[k] = 0.5 * problem.violation_cost[i];
+      v_[k] = kFirstSlack + std::max(0.0, -problem.constants[i]);
+    }
+  }
 
   ConvexSolution run() {
     ConvexSolution result;
@@ -192,7 +206,7 @@ class InteriorPoint {
         continue;
       }
       if (is_hopeless()) break;
-      if (!matrix_.factor(y_.cwiseQuotient(s_))) break;
+      if (!matrix_.factor(y_.cwiseQuotient(yielding()))) break;
       if (step() < kShortStep) ++short_steps;
     }
     result.solved = !result.primal.empty();
@@ -202,8 +216,25 @@ class InteriorPoint {
 
  private:
   struct Direction {
-    Vector x, s, y;
+    Vector x, s, y, v;
   };
+
+  /// y over the diagonal of the matrix: s, and more in rows that may be violated.
+  [[nodiscard]] Vector yielding() const { return s_ + y_.cwiseProduct(v_.cwiseQuotient(z_)); }
+  /// Σ s y + Σ v z, after t of the way.
+  [[nodiscard]] double gap(double t, const Direction& d) const {
+    double sum = (s_ + t * d.s).dot(y_ + t * d.y);
+    for (const Index i : elastic_) sum += (v_[i] + t * d.v[i]) * (z_[i] - t * d.y[i]);
+    return sum;
+  }
+  [[nodiscard]] double gap() const {
+    double sum = s_.dot(y_);
+    for (const Index i : elastic_) sum += v_[i] * z_[i];
+    return sum;
+  }
+  [[nodiscard]] double n_products() const {
+    return static_cast<double>(s_.size()) + static_cast<double>(elastic_.size());
+  }
 
   /// The squares at the start, or if they are zero the squares of what rows lack.
   [[nodiscard]] double first_squares() const {
@@ -232,7 +263,8 @@ class InteriorPoint {
     for (std::size_t i = 0; i < p_.rows.size(); ++i) add(p_.rows, i, -y_[static_cast<Index>(i)]);
     objective_ = 0.5 * squares.squaredNorm();
     if (!p_.cost.empty()) objective_ += to_vector(p_.cost).dot(x_);
-    lacking_ = times(p_.rows, x_) + to_vector(p_.constants) - s_;
+    for (const Index i : elastic_) objective_ += p_.violation_cost[static_cast<std::size_t>(i)] * v_[i];
+    lacking_ = times(p_.rows, x_) + to_vector(p_.constants) - s_ + v_;
     sizes_ = Vector::Ones(s_.size());
     for (std::size_t i = 0; i < p_.rows.size(); ++i) {
       p_.rows.for_each(i, [&](std::size_t k, double a) {
@@ -244,7 +276,7 @@ class InteriorPoint {
   /// If y proves that the objective is this much greater than at the start, there is most likely no x with s ≥ 0. With
   /// a cost, its unit says nothing about that.
   [[nodiscard]] bool is_hopeless() {
-    if (!p_.cost.empty()) return false;
+    if (!p_.cost.empty() || !elastic_.empty()) return false;
     if (first_objective_ < 0) first_objective_ = objective_ > 0 ? objective_ : first_squares();
     return p_.barrier == 0 && objective_ - y_.dot(s_ + lacking_) > kHopeless * first_objective_;
   }
@@ -252,31 +284,43 @@ class InteriorPoint {
   /// Makes the slope zero by small changes of x and y. If y/s is large, s has lost digits. So it is limited here, since
   /// any D does: the slope changes by Q dx + Aᵀ D A dx.
   bool polish() {
-    Vector limited = y_.cwiseQuotient(s_);
+    Vector limited = y_.cwiseQuotient(yielding());
     if (p_.barrier == 0) limited = limited.cwiseMin(kLargestRatio * matrix_.largest_square());
     if (!matrix_.factor(limited)) return false;
     const Vector dx = matrix_.solve(-slope_), ds = times(p_.rows, dx);
     x_ += dx, s_ += ds, y_ -= limited.cwiseProduct(ds);
-    return s_.minCoeff() > 0 && y_.minCoeff() > 0;
+    for (const Index i : elastic_) {
+      z_[i] += limited[i] * ds[i];
+      if (v_[i] > s_[i] - ds[i]) s_[i] -= ds[i], v_[i] -= ds[i];
+    }
+    return s_.minCoeff() > 0 && y_.minCoeff() > 0 && z_.minCoeff() > 0 &&
+           std::all_of(elastic_.begin(), elastic_.end(), [this](Index i) { return v_[i] > 0; });
   }
 
   /// Says whether all is solved, except for the slope.
   [[nodiscard]] bool has_gap() const {
     if ((lacking_.cwiseAbs() - kResidual * sizes_).maxCoeff() > 0) return false;
-    if (p_.barrier == 0) return s_.dot(y_) <= kGap * std::max(objective_, kZero);
+    if (p_.barrier == 0) return gap() <= kGap * std::max(objective_, kZero);
     return (s_.cwiseProduct(y_).array() / p_.barrier - 1).abs().maxCoeff() <= kCentered;
   }
 
-  /// The direction for s y = target, with `second` the product ds dy of the predictor.
-  [[nodiscard]] Direction direction(double target, const Vector& second) const {
-    const Vector beyond = s_.cwiseProduct(y_) + second - Vector::Constant(s_.size(), target);
-    const Vector right_rows = (beyond + y_.cwiseProduct(lacking_)).cwiseQuotient(s_);
+  /// The direction for s y = v z = target, with the products ds dy and dv dz of the predictor, if there is one.
+  [[nodiscard]] Direction direction(double target, const Direction* ahead) const {
+    Vector beyond = s_.cwiseProduct(y_), beyond_v = Vector::Zero(s_.size());
+    if (ahead != nullptr) beyond += ahead->s.cwiseProduct(ahead->y);
+    beyond -= Vector::Constant(s_.size(), target);
+    for (const Index i : elastic_)
+      beyond_v[i] = v_[i] * z_[i] - (ahead != nullptr ? ahead->v[i] * ahead->y[i] : 0) - target;
+    const Vector lacking = lacking_ - beyond_v.cwiseQuotient(z_), yielding = this->yielding();
+    const Vector right_rows = (beyond + y_.cwiseProduct(lacking)).cwiseQuotient(yielding);
     Vector right = -slope_;
     add_transposed(p_.rows, right_rows, -1, right);
     Direction d;
     d.x = matrix_.solve(right);
-    d.s = times(p_.rows, d.x) + lacking_;
-    d.y = -(beyond + y_.cwiseProduct(d.s)).cwiseQuotient(s_);
+    const Vector change = times(p_.rows, d.x);
+    d.y = -(beyond + y_.cwiseProduct(change + lacking)).cwiseQuotient(yielding);
+    d.v = (v_.cwiseProduct(d.y) - beyond_v).cwiseQuotient(z_);
+    d.s = change + lacking_ + d.v;
     return d;
   }
 
@@ -288,33 +332,36 @@ class InteriorPoint {
     }
     return t;
   }
+  /// The part of the way to the nearest s, y, v or z that is 0, at most 1.
+  [[nodiscard]] double room(const Direction& d) const {
+    return std::min({room(s_, d.s), room(y_, d.y), room(v_, d.v), room(z_, -d.y)});
+  }
 
   /// Returns the part of the way that was taken.
   double step() {
-    const Vector none = Vector::Zero(s_.size());
     Direction d;
     if (p_.barrier > 0) {
-      d = direction(p_.barrier, none);
+      d = direction(p_.barrier, nullptr);
     } else {
-      const double mean = s_.dot(y_) / static_cast<double>(s_.size());
-      const Direction ahead = direction(0, none);
-      const double t = std::min(room(s_, ahead.s), room(y_, ahead.y));
-      const double left = (s_ + t * ahead.s).dot(y_ + t * ahead.y) / static_cast<double>(s_.size());
+      const double mean = gap() / n_products();
+      const Direction ahead = direction(0, nullptr);
+      const double left = gap(room(ahead), ahead) / n_products();
       const double part = std::pow(left / mean, 3);
-      const double least = 0.5 * kGap * std::max(objective_, kZero) / static_cast<double>(s_.size());
-      d = direction(std::max(part * mean, least), ahead.s.cwiseProduct(ahead.y));
+      const double least = 0.5 * kGap * std::max(objective_, kZero) / n_products();
+      d = direction(std::max(part * mean, least), &ahead);
     }
-    double t = std::min(room(s_, d.s), room(y_, d.y));
+    double t = room(d);
     if (t < 1) t *= kOfTheWay;
-    x_ += t * d.x, s_ += t * d.s, y_ += t * d.y;
+    x_ += t * d.x, s_ += t * d.s, y_ += t * d.y, v_ += t * d.v, z_ -= t * d.y;
     return t;
   }
 
   const ConvexProblem& p_;
   NewtonMatrix matrix_;
-  Vector x_, s_, y_;
-  Vector slope_, scale_;    // Q x + q − Aᵀ y, and the size of its terms
-  Vector lacking_, sizes_;  // A x + b − s, and the size of its terms
+  Vector x_, s_, y_, v_, z_;
+  std::vector<Index> elastic_;  // rows that may be violated
+  Vector slope_, scale_;        // Q x + q − Aᵀ y, and the size of its terms
+  Vector lacking_, sizes_;      // A x + b − s, and the size of its terms
   double objective_ = 0, first_objective_ = -1;
 };
 

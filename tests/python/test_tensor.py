@@ -250,7 +250,7 @@ def test_weights_for_regions_keep_the_equations_of_interfaces():
     mesh.cell_data["corner_weights"] = report.corner_weights
     assert (report.corner_weights != 0).any()
     assert error_of_linear_pressure(mesh, tensors, *pressure) < 1e-12
-    with pytest.raises(temper.TemperError, match="goal: center, accuracy and least have no equations for interfaces"):
+    with pytest.raises(temper.TemperError, match="goal: center, accuracy, least and fewest have no equations"):
         temper.find_weights(mesh, goal="least", tensor=tensors)
 
 

@@ -153,7 +153,8 @@ std::string next_text(const WeightsRecord& r) {
     if (!text.empty()) text += ", ";
     text += any ? "temper optimize with --set repair=vertices, which adds vertices"
                 : command_line("explain", std::string(r.path), {});
-    if (r.options.goal != WeightGoal::elastic) text += ", or --mode elastic for the least violation";
+    if (r.options.goal != WeightGoal::elastic && r.options.goal != WeightGoal::fewest)
+      text += ", or --mode elastic for the least violation";
   }
   return fmt::format("Next: {}\n", text);
 }

@@ -40,7 +40,8 @@ std::string option_name(Constraints constraints) {
 
 constexpr Choice<WeightGoal> kModes[] = {{"margin", WeightGoal::margin},     {"change", WeightGoal::change},
                                          {"elastic", WeightGoal::elastic},   {"center", WeightGoal::center},
-                                         {"accuracy", WeightGoal::accuracy}, {"least", WeightGoal::least}};
+                                         {"accuracy", WeightGoal::accuracy}, {"least", WeightGoal::least},
+                                         {"fewest", WeightGoal::fewest}};
 enum class From { zero, input };
 constexpr Choice<From> kFrom[] = {{"zero", From::zero}, {"input", From::input}};
 /// The schemes: the targets of optimize that lower an offset, for --mode accuracy, and that have constraints.
@@ -146,7 +147,8 @@ void add_goal(Command& command, WeightsSettings& s) {
   add_choice(
       command, "--mode", kModes, s.options.goal,
       "Goal of the search. 'margin' tests if good weights exist, and finds the best margin. 'change' makes the least "
-      "change that gives the margin. If no weights have the margin, 'elastic' finds the least violation. 'center' "
+      "change that gives the margin. If no weights have the margin, 'elastic' finds the least violation, and 'fewest' "
+      "weights with few violations. 'center' "
       "finds the greatest product of all h/l, d/l and 1 - d/l, or of all dual lengths/l. 'accuracy' finds the least "
       "offsets between the midpoints of edges and their duals, with the margin. 'least' finds the least sum of squares "
       "of the changes of d/l, with the margin or a smaller one.");

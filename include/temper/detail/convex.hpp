@@ -39,6 +39,9 @@ struct ConvexProblem {
   std::vector<double> cost;  ///< One per column, or empty: none
   SparseRows rows;
   std::vector<double> constants;
+  /// Cost per unit of a slack below 0, infinite for rows that must be kept. Empty: all must. Precondition if not
+  /// empty: no barrier.
+  std::vector<double> violation_cost = {};
   double barrier = 0;                    ///< Factor of the logarithms; 0: the slacks may reach 0
   std::function<bool()> must_stop = {};  ///< Asked once an iteration: if it says yes, the solver gives up
 };

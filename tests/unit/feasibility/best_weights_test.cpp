@@ -332,6 +332,25 @@ TEST(InteriorPoint, FindsTheNearestPointOfAHalfPlane) {
   EXPECT_NEAR(solution.dual[0], 1, 1e-7);
 }
 
+TEST(InteriorPoint, ViolatesRowsWhereThatCostsLess) {
+  for (const auto& [cost, x] : {std::pair(0.5, 2.5), {2.0, 2.0}, {0.05, 2.6}}) {
+    ConvexProblem problem;  // ½ (x − 3)² with x ≤ 2, or at a cost, and x ≤ 2.6
+    problem.n_columns = 1;
+    problem.squares.add_entry(0, 1), problem.squares.end_row();
+    problem.square_constants = {-3};
+    for (const double most : {2.0, 2.6}) {
+      problem.rows.add_entry(0, -1), problem.rows.end_row();
+      problem.constants.push_back(most);
+    }
+    problem.violation_cost = {cost, kUnbounded};
+    const ConvexSolution solution = interior_point_solver()->solve(problem);
+    ASSERT_TRUE(solution.solved);
+    EXPECT_NEAR(solution.primal[0], x, 1e-6);
+    EXPECT_NEAR(solution.dual[0], std::min(cost, 3 - x), 1e-6);
+    EXPECT_NEAR(solution.dual[1], 3 - x - solution.dual[0], 1e-6);
+  }
+}
+
 TEST(InteriorPoint, GivesUpIfThereIsNoPoint) {
   ConvexProblem problem;  // x ≥ 1 and x ≤ −1
   problem.n_columns = 1;

@@ -216,6 +216,53 @@ TEST(SurfaceWeights, DualLengthsOfAPinwheelHaveABestMarginOfAnySign) {
   EXPECT_LT(best(-0.2), -1e-3);
 }
 
+double sum_of(const std::vector<Violation>& violations) {
+  double sum = 0;
+  for (const Violation& v : violations) sum += v.shortfall;
+  return sum;
+}
+
+TEST(SurfaceWeights, OfLargeMeshesViolateAsLittleAsByTheLinearProgram) {
+  for (const SurfaceMesh& mesh : {rough_sphere(0.4, 2, 0.3), saddle(1, 0.3), pinwheel(-0.2, 0.5)}) {
+    for (const Constraints constraints : {Constraints::well_centered, Constraints::heights_only}) {
+      WeightOptions options;
+      options.goal = WeightGoal::elastic;
+      options.constraints = constraints;
+      const WeightReport whole = weights_of(mesh, options);
+      options.whole = 0;
+      const WeightReport grown = weights_of(mesh, options);
+      EXPECT_EQ(grown.verdict, whole.verdict);
+      const double least = sum_of(whole.violations);
+      EXPECT_GE(sum_of(grown.violations), least - 1e-6);
+      EXPECT_LE(sum_of(grown.violations), 1.03 * least + 1e-6) << name(constraints);
+      EXPECT_EQ(check_certificate(mesh, grown.certificate), check_certificate(mesh, whole.certificate));
+    }
+  }
+}
+
+TEST(SurfaceWeights, FewestViolatesFewConstraintsAndNoneWithoutNeed) {
+  WeightOptions elastic, fewest;
+  elastic.goal = WeightGoal::elastic;
+  fewest.goal = WeightGoal::fewest;
+  std::size_t all = 0, few = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const SurfaceMesh mesh = rough_sphere(0.4, seed, 0.3);
+    const WeightReport one = weights_of(mesh, elastic), other = weights_of(mesh, fewest);
+    ASSERT_EQ(one.verdict, Feasibility::infeasible);
+    all += one.violations.size(), few += other.violations.size();
+    EXPECT_GE(sum_of(other.violations), sum_of(one.violations) - 1e-6);
+    EXPECT_EQ(other.certificate, one.certificate);
+  }
+  EXPECT_LT(few, all);
+
+  const SurfaceMesh sphere = rough_sphere(0.35, 3);
+  fewest.margin = 0.3;  // more than it can have: none is bad all the same
+  const WeightReport report = weights_of(sphere, fewest);
+  EXPECT_EQ(report.verdict, Feasibility::feasible);
+  EXPECT_GT(report.violations.size(), 0U);
+  EXPECT_GT(report.attained, 0);
+}
+
 TEST(SurfaceWeights, ATorusOfTrapezoidsHasTheBestMarginZero) {
   // The best weights may depend on the height alone, by symmetry. Then the corners of each trapezoid stay cocircular.
   const SurfaceMesh torus = test::mesh_of(test::torus(12, 8));

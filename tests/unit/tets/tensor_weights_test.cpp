@@ -69,12 +69,12 @@ TEST(TetTensorWeights, TermsOfOtherEdgesAreNotOfTheMesh) {
 
 TEST(TetTensorWeights, GoalsWithoutEquationsAreRefused) {
   const MetricMesh pieces = pieces_of(two_layers(2, 0, 0), kLower, kUpper);
-  for (const WeightGoal goal : {WeightGoal::center, WeightGoal::accuracy, WeightGoal::least}) {
+  for (const WeightGoal goal : {WeightGoal::center, WeightGoal::accuracy, WeightGoal::least, WeightGoal::fewest}) {
     WeightOptions options;
     options.goal = goal;
     const auto refused = find_weights(pieces, *clp_solver(), options, interior_point_solver().get());
     ASSERT_FALSE(refused);
-    EXPECT_TRUE(refused.error().message.starts_with("goal: center, accuracy and least have no equations"));
+    EXPECT_TRUE(refused.error().message.starts_with("goal: center, accuracy, least and fewest have no equations"));
   }
 }
 
