@@ -58,14 +58,13 @@ std::optional<RegionResult> RegionSolver::take_result(const Region& region) {
 }
 
 RegionChange RegionSolver::change_of(const Region& region, double asked) const {
-  if (options_.goal == WeightGoal::least) return least_squares(problem(asked), region, *convex_);
+  if (has_bound_of_conflict(region)) return least_squares(problem(asked), region, *convex_);
   return least_change(problem(asked), region, solver_);
 }
 
-/// The linear program of a large region is slow. The convex one finds where the conflict is.
-Bound RegionSolver::bound_without(const Region& region, double asked, RegionChange change) const {
+/// The linear program of a large region is slow. The convex one has found where the conflict is.
+Bound RegionSolver::bound_without(const Region& region, const RegionChange& change) const {
   if (!has_bound_of_conflict(region)) return bound_of(region.cells);
-  if (options_.goal != WeightGoal::least) change = least_squares(problem(asked), region, *convex_);
   const std::vector<CellId> cells = cells_of(demand_, change.conflict);
   return cells.empty() ? Bound() : bound_of(cells);
 }
@@ -77,7 +76,7 @@ std::optional<RegionResult> RegionSolver::solve(Region& region, double asked, do
   if (must_stop()) return RegionResult{std::move(region), std::nullopt, {}};
   if (change.status != LpStatus::optimal && floor < asked) change = violation_of(region, asked, floor);
   if (change.status == LpStatus::optimal) return RegionResult{std::move(region), std::move(change), {}};
-  Bound bound = bound_without(region, asked, change);
+  Bound bound = bound_without(region, change);
   // Only a best margin of all constraints alike, and an exact one, rules out smaller margins than itself.
   const bool by_sign = demand_.has_duals() && (demand_.constraints() != Constraints::distances || !is_plane());
   const bool below = by_sign ? is_hopeless(bound.best.margin) : bound.best.margin < floor;

@@ -90,7 +90,7 @@ class RegionSolver {
   /// Adds rings of vertices to the regions without weights, which may merge with others.
   void grow_unsolved(int rings);
   /// A bound of the margin that a region without this change can have.
-  [[nodiscard]] Bound bound_without(const Region& region, double asked, RegionChange change) const;
+  [[nodiscard]] Bound bound_without(const Region& region, const RegionChange& change) const;
   std::optional<RegionResult> take_result(const Region& region);
   std::optional<RegionResult> solve(Region& region, double asked, double floor);
 
