@@ -67,6 +67,24 @@ struct WeightedPoint {
 [[nodiscard]] double dual_over_length(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r,
                                       const WeightedPoint& s);
 
+/// A triangle pqr by its squared lengths, and its weights, both [length²].
+struct MetricTriangle {
+  double pq = 0, qr = 0, rp = 0;
+  double wp = 0, wq = 0, wr = 0;
+  /// The same triangle, as qrp.
+  [[nodiscard]] constexpr MetricTriangle turned() const { return {qr, rp, pq, wq, wr, wp}; }
+};
+// As above, for the lengths as they are. The height is over pq. `left` is pqr, and `right` is qps.
+[[nodiscard]] bool is_flat(const MetricTriangle& t);
+[[nodiscard]] Sign signed_height_sign(const MetricTriangle& t);
+[[nodiscard]] Sign dual_crossing_sign(const MetricTriangle& t);
+[[nodiscard]] Sign dual_length_sign(const MetricTriangle& left, const MetricTriangle& right);
+[[nodiscard]] bool is_well_centered(const MetricTriangle& t);
+[[nodiscard]] double doubled_area(const MetricTriangle& t);
+[[nodiscard]] double dual_crossing(const MetricTriangle& t);
+[[nodiscard]] double signed_height(const MetricTriangle& t);
+[[nodiscard]] double dual_over_length(const MetricTriangle& left, const MetricTriangle& right);
+
 // --- the mesh -----------------------------------------------------------------------------------------------------
 
 /// Arrays that make a mesh, as MeshInput. SurfaceMesh::build reads the spans only during the call.
@@ -181,6 +199,72 @@ struct BuiltSurface {
 /// in space: each orthocenter in the plane of its triangle, and the weighted midpoints of edges. Areas and dual areas
 /// are those of the plane triangles. Precondition: fewer than 2³¹ edges. O(n).
 [[nodiscard]] DecComplex dec_operators(const SurfaceMesh& mesh);
+
+// --- intrinsic triangulations -----------------------------------------------------------------------------------
+
+/// A triangulation of a fixed surface. Its edges are shortest lines within two triangles, known by their lengths: no
+/// file of points and triangles holds them. Flips change the triangulation, and the surface stays. An edge has two
+/// different ends, and no two edges have the same ends.
+///
+/// Lengths of new edges are rounded. Signs and certificates are exact for the squared lengths as they are stored.
+class IntrinsicMesh {
+ public:
+  IntrinsicMesh() = default;
+  /// The triangulation of the mesh itself, with its weights.
+  explicit IntrinsicMesh(const SurfaceMesh& mesh);
+
+  /// Halfedges, corners, stars, flags, regions and weights. Its positions have no meaning.
+  [[nodiscard]] const Mesh& connectivity() const { return mesh_; }
+  /// ℓ² of the edge of h.
+  [[nodiscard]] double squared_length(HalfedgeId h) const { return squared_lengths_[h]; }
+  [[nodiscard]] double weight(VertexId v) const { return mesh_.weight(v); }
+  void set_weight(VertexId v, double w) { mesh_.set_weight(v, w); }
+  /// The triangle of h, as pqr with h = pq.
+  [[nodiscard]] MetricTriangle triangle(HalfedgeId h) const;
+
+  /// Flips an edge. Returns false, and changes nothing, if it is on the boundary or constrained, if its ends or those
+  /// of the new edge would have two edges or none, or if the two triangles do not unfold to a convex quadrilateral.
+  bool flip(HalfedgeId h);
+
+ private:
+  Mesh mesh_;
+  IdVector<HalfedgeId, double> squared_lengths_;
+};
+
+/// Numbers of flip_to_regular.
+struct IntrinsicFlips {
+  std::size_t flips = 0;
+  std::size_t blocked = 0;  ///< Edges whose dual lengths stay negative, because they cannot flip
+};
+/// Flips edges with negative dual lengths, as Lawson, until none is left that can flip. With zero weights the result is
+/// an intrinsic Delaunay triangulation if no edge is blocked.
+IntrinsicFlips flip_to_regular(IntrinsicMesh& mesh);
+
+[[nodiscard]] double weight_margin(const IntrinsicMesh& mesh, Constraints constraints = Constraints::well_centered);
+/// Number of triangles that do not satisfy the constraints, exactly. O(n).
+[[nodiscard]] std::size_t n_bad_triangles(const IntrinsicMesh& mesh,
+                                          Constraints constraints = Constraints::well_centered);
+/// As those of meshes.
+[[nodiscard]] Expected<WeightReport> find_weights(const IntrinsicMesh& mesh, LpSolver& solver,
+                                                  const WeightOptions& options = {}, ConvexSolver* convex = nullptr);
+[[nodiscard]] CertificateCheck check_certificate(const IntrinsicMesh& mesh, const Certificate& certificate);
+/// The operators. They have no places: no midpoints and orthocenters.
+[[nodiscard]] DecComplex dec_operators(const IntrinsicMesh& mesh);
+
+struct IntrinsicWeights {
+  WeightReport report;         ///< of the last triangulation
+  IntrinsicFlips flips;        ///< of all rounds; `blocked` of the last one
+  std::size_t bad_before = 0;  ///< n_bad_triangles before the first flip
+  std::size_t bad_after = 0;   ///< and with the weights of the report
+  std::size_t rounds = 0;      ///< Triangulations that were tried up to this one
+};
+/// Finds weights for a triangulation. If triangles stay bad, it flips the triangulation to the regular one of zero
+/// weights, or with `from_input` of the weights of the mesh, and finds weights again. Then it flips to the regular
+/// triangulation of these weights, and so on, while the number of bad triangles falls. The mesh gets the best
+/// triangulation and its weights. Errors: those of find_weights.
+[[nodiscard]] Expected<IntrinsicWeights> find_intrinsic_weights(IntrinsicMesh& mesh, LpSolver& solver,
+                                                                const WeightOptions& options = {},
+                                                                ConvexSolver* convex = nullptr);
 
 // --- optimization ---------------------------------------------------------------------------------------------------
 

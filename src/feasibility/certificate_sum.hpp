@@ -57,13 +57,16 @@ Polynomial polynomial_of_equal_crossing(const Vector& pq, const Vector& rs) {
   return {{here, -here, -there, there}, Number()};
 }
 
-/// N − t M of the crossing of pq.
-template <class Vector>
-Polynomial polynomial_of_crossing(const Vector& pq, double margin) {
-  const Number l2 = dot(pq, pq);
+/// N − t M of the crossing of pq, from its squared length or its vector.
+inline Polynomial polynomial_of_crossing(const Number& l2, double margin) {
   Polynomial polynomial = {{Number(1), Number(-1)}, l2};
   if (margin != 0) polynomial.constant += -(Number(2 * margin) * l2);
   return polynomial;
+}
+
+template <class Vector>
+Polynomial polynomial_of_crossing(const Vector& pq, double margin) {
+  return polynomial_of_crossing(dot(pq, pq), margin);
 }
 
 /// Says whether only kWeightReach bounds the differences of weights.

@@ -48,11 +48,13 @@ double value_of(const LinearForm& form, const Potential& potential) {
   return numerator_of(form, potential) / scale_of(form, potential);
 }
 
-/// The crossing of an edge, from its vector.
+/// The crossing of an edge, from its squared length or its vector.
+inline LinearForm crossing_form(const WeightConstraint& c, double l2) {
+  return {2, {c.p, c.q}, {0.5 / l2, -0.5 / l2}, 0.5};
+}
 template <class Vector>
 LinearForm crossing_form(const WeightConstraint& c, const Vector& pq) {
-  const double l2 = squared_length(pq);
-  return {2, {c.p, c.q}, {0.5 / l2, -0.5 / l2}, 0.5};
+  return crossing_form(c, squared_length(pq));
 }
 /// The equation of the interface edge pq, which is rs on the other side, from its vectors.
 template <class Vector>
@@ -60,12 +62,22 @@ LinearForm equal_crossing_form(const WeightConstraint& c, const Vector& pq, cons
   const double here = 0.5 / squared_length(pq), there = 0.5 / squared_length(rs);
   return {4, {c.p, c.q, c.r, c.s}, {here, -here, -there, there}, 0};
 }
-/// The height over the edge pq of the triangle pqr, from its edges and twice its area.
+/// The height over the edge pq of the triangle pqr, from |pq|², the products pq·pr, qp·qr and rp·rq, and twice the
+/// area.
+inline LinearForm height_form(const WeightConstraint& c, double l2, const std::array<double, 3>& at,
+                              double twice_area) {
+  const double scale = 0.5 / twice_area;
+  return {3, {c.p, c.q, c.r}, {scale * at[1] / l2, scale * at[0] / l2, -scale}, scale * at[2]};
+}
 template <class Vector>
 LinearForm height_form(const WeightConstraint& c, const Vector& pq, const Vector& pr, const Vector& qr,
                        double twice_area) {
-  const double l2 = squared_length(pq), scale = 0.5 / twice_area;
-  return {3, {c.p, c.q, c.r}, {-scale * dot(pq, qr) / l2, scale * dot(pq, pr) / l2, -scale}, scale * dot(pr, qr)};
+  return height_form(c, squared_length(pq), {dot(pq, pr), -dot(pq, qr), dot(pr, qr)}, twice_area);
+}
+/// The dual length of an edge, from the heights over it in pqr and in qps.
+inline LinearForm dual_form(const WeightConstraint& c, const LinearForm& left, const LinearForm& right) {
+  const auto &a = left.coefficients, &b = right.coefficients;
+  return {4, {c.p, c.q, c.r, c.s}, {a[0] + b[1], a[1] + b[0], a[2], b[2]}, left.constant + right.constant};
 }
 
 /// Returns the constraints on weights that a criterion is.

@@ -45,7 +45,51 @@ class SurfaceMeasures {
   const SurfaceMesh* mesh_;
 };
 
+/// Points are vertices: lengths are those of the edges between them.
+class IntrinsicMeasures {
+ public:
+  using Point = VertexId;
+  explicit IntrinsicMeasures(const IntrinsicMesh& mesh) : mesh_(&mesh) {}
+  [[nodiscard]] Point point(VertexId v) const { return v; }
+  [[nodiscard]] Point point(VertexId v, Point /*near*/) const { return v; }
+
+  void triangle(DecComplex& c, TriangleId t) const {
+    c.areas.push_back(0.5 * doubled_area(mesh_->triangle(Mesh::halfedge(t, 0))));
+  }
+  void line(DecComplex& /*c*/, DecEdge& edge) const {
+    MetricTriangle t = at(edge.from, edge.to);
+    edge.length = std::sqrt(t.pq);
+    edge.crossing = dual_crossing(t);
+  }
+  [[nodiscard]] double height(Point p, Point q, Point /*r*/, double /*area*/, double /*length*/) const {
+    return signed_height(at(p, q));
+  }
+  [[nodiscard]] double end_ratio(Point p, Point q, Point /*r*/, double /*area*/, double length) const {
+    return with_sign(signed_height(at(p, q)) / length, signed_height_sign(at(p, q)));
+  }
+  [[nodiscard]] double dual_ratio(const std::array<Point, 4>& quad, std::array<double, 2> /*areas*/,
+                                  double /*length*/) const {
+    return dual_over_length(at(quad[0], quad[1]), at(quad[1], quad[0]));
+  }
+
+ private:
+  /// The triangle on the left of pq, or with the ends of a boundary edge swapped the one on its right.
+  [[nodiscard]] MetricTriangle at(VertexId p, VertexId q) const {
+    const Mesh& mesh = mesh_->connectivity();
+    const HalfedgeId h = mesh.find_halfedge(p, q);
+    if (h.valid()) return mesh_->triangle(h);
+    const auto [pq, qr, rp, wp, wq, wr] = mesh_->triangle(mesh.find_halfedge(q, p));
+    return {pq, rp, qr, wq, wp, wr};
+  }
+
+  const IntrinsicMesh* mesh_;
+};
+
 }  // namespace
+
+DecComplex dec_operators(const IntrinsicMesh& mesh) {
+  return DecBuilder(mesh.connectivity(), IntrinsicMeasures(mesh)).build();
+}
 
 DecComplex dec_operators(const SurfaceMesh& mesh) {
   return DecBuilder(mesh.connectivity(), SurfaceMeasures(mesh)).build();

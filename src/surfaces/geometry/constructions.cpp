@@ -56,4 +56,18 @@ double dual_over_length(const WeightedPoint& p, const WeightedPoint& q, const We
   return with_sign(0.5 * sum / l2, dual_length_sign(p, q, r, s));
 }
 
+double doubled_area(const MetricTriangle& t) {
+  return 0.5 * std::sqrt(squared_doubled_area<exact::Number>(t).approximation());
+}
+
+double dual_crossing(const MetricTriangle& t) { return 0.5 * (t.pq + t.wp - t.wq) / std::sqrt(t.pq); }
+
+double signed_height(const MetricTriangle& t) {
+  return 0.125 * height_numerator<exact::Number>(t).approximation() / (std::sqrt(t.pq) * doubled_area(t));
+}
+
+double dual_over_length(const MetricTriangle& left, const MetricTriangle& right) {
+  return with_sign((signed_height(left) + signed_height(right)) / std::sqrt(left.pq), dual_length_sign(left, right));
+}
+
 }  // namespace temper::surfaces

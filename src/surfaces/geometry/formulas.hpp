@@ -102,4 +102,35 @@ T difference_of_squares(const WeightedPoint& p, const WeightedPoint& q, const We
          (-(n_s * n_s * squared_doubled_area<T>(p.position(), q.position(), r.position())));
 }
 
+// --- by squared lengths, where pq·pr = (|pq|² + |pr|² − |qr|²)/2 ---------------------------------------------------
+
+/// 2 pq·pr, from |pq|², |pr|² and |qr|².
+template <class T>
+T doubled_dot(double pq, double pr, double qr) {
+  return T(pq) + T(pr) + (-T(qr));
+}
+
+/// 4 N.
+template <class T>
+T height_numerator(const MetricTriangle& t) {
+  const T at_p = doubled_dot<T>(t.pq, t.rp, t.qr), at_q = doubled_dot<T>(t.pq, t.qr, t.rp),
+          at_r = doubled_dot<T>(t.qr, t.rp, t.pq), two = T(2);
+  return at_p * (at_r + two * difference<T>(t.wq, t.wr)) + at_q * (at_r + two * difference<T>(t.wp, t.wr));
+}
+/// 4 S².
+template <class T>
+T squared_doubled_area(const MetricTriangle& t) {
+  const T at_p = doubled_dot<T>(t.pq, t.rp, t.qr);
+  return T(4) * T(t.pq) * T(t.rp) + (-(at_p * at_p));
+}
+template <class T>
+T doubled_crossing(const MetricTriangle& t) {
+  return T(t.pq) + difference<T>(t.wp, t.wq);
+}
+template <class T>
+T difference_of_squares(const MetricTriangle& left, const MetricTriangle& right) {
+  const T n_r = height_numerator<T>(left), n_s = height_numerator<T>(right);
+  return n_r * n_r * squared_doubled_area<T>(right) + (-(n_s * n_s * squared_doubled_area<T>(left)));
+}
+
 }  // namespace temper::surfaces

@@ -13,6 +13,15 @@ Sign exact_sign(const Formula& formula) {
   return formula(exact::Dyadic()).sign();
 }
 
+/// The sign of a sum, from the signs of its terms and a formula with the sign of the difference of their squares.
+template <class Formula>
+Sign sign_of_sum(Sign left, Sign right, const Formula& difference_of_squares) {
+  if (left == right || right == Sign::zero) return left;
+  if (left == Sign::zero) return right;
+  const Sign farther = exact_sign(difference_of_squares);
+  return left == Sign::positive ? farther : -farther;
+}
+
 }  // namespace
 
 bool is_flat(Vec3 p, Vec3 q, Vec3 r) {
@@ -28,11 +37,8 @@ Sign dual_crossing_sign(const WeightedPoint& p, const WeightedPoint& q) {
 }
 
 Sign dual_length_sign(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r, const WeightedPoint& s) {
-  const Sign left = signed_height_sign(p, q, r), right = signed_height_sign(q, p, s);
-  if (left == right || right == Sign::zero) return left;
-  if (left == Sign::zero) return right;
-  const Sign farther = exact_sign([&]<class T>(T) { return difference_of_squares<T>(p, q, r, s); });
-  return left == Sign::positive ? farther : -farther;
+  return sign_of_sum(signed_height_sign(p, q, r), signed_height_sign(q, p, s),
+                     [&]<class T>(T) { return difference_of_squares<T>(p, q, r, s); });
 }
 
 bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
@@ -42,6 +48,34 @@ bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const Weig
   };
   return is_positive(signed_height_sign(p, q, r)) && is_positive(signed_height_sign(q, r, p)) &&
          is_positive(signed_height_sign(r, p, q)) && is_crossed(p, q) && is_crossed(q, r) && is_crossed(r, p);
+}
+
+bool is_flat(const MetricTriangle& t) {
+  return exact_sign([&]<class T>(T) { return squared_doubled_area<T>(t); }) != Sign::positive;
+}
+
+Sign signed_height_sign(const MetricTriangle& t) {
+  return exact_sign([&]<class T>(T) { return height_numerator<T>(t); });
+}
+
+Sign dual_crossing_sign(const MetricTriangle& t) {
+  return exact_sign([&]<class T>(T) { return doubled_crossing<T>(t); });
+}
+
+Sign dual_length_sign(const MetricTriangle& left, const MetricTriangle& right) {
+  return sign_of_sum(signed_height_sign(left), signed_height_sign(right),
+                     [&]<class T>(T) { return difference_of_squares<T>(left, right); });
+}
+
+bool is_well_centered(const MetricTriangle& t) {
+  MetricTriangle side = t;
+  for (int k = 0; k < 3; ++k, side = side.turned()) {
+    const MetricTriangle back = {side.pq, side.rp, side.qr, side.wq, side.wp, side.wr};
+    if (signed_height_sign(side) != Sign::positive || dual_crossing_sign(side) != Sign::positive ||
+        dual_crossing_sign(back) != Sign::positive)
+      return false;
+  }
+  return true;
 }
 
 }  // namespace temper::surfaces

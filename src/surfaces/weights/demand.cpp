@@ -30,9 +30,7 @@ LinearForm SurfaceDemand::linear_form(const WeightConstraint& c) const {
   if (c.kind == Kind::crossing) return crossing_form(c, from_to(c.p, c.q));
   const LinearForm left = form_of_height(c.p, c.q, c.r);
   if (c.kind == Kind::height) return left;
-  const LinearForm right = form_of_height(c.q, c.p, c.s);
-  const auto &a = left.coefficients, &b = right.coefficients;
-  return {4, {c.p, c.q, c.r, c.s}, {a[0] + b[1], a[1] + b[0], a[2], b[2]}, left.constant + right.constant};
+  return dual_form(c, left, form_of_height(c.q, c.p, c.s));
 }
 
 double SurfaceDemand::scale_of_polynomial(const WeightConstraint& c) const {

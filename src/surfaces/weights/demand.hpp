@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,37 @@ class SurfaceDemand final : public TriangleDemand {
   [[nodiscard]] LinearForm form_of_height(VertexId p, VertexId q, VertexId r) const;
 
   const SurfaceMesh& surface_;
+};
+
+/// The error of a request that a surface cannot have.
+[[nodiscard]] std::optional<InputError> expect_surface_request(const Mesh& mesh, const WeightOptions& options,
+                                                               const ConvexSolver* convex);
+
+/// The same for triangulations that are known by their squared lengths.
+class IntrinsicDemand final : public TriangleDemand {
+ public:
+  IntrinsicDemand(const IntrinsicMesh& surface, Constraints constraints, std::span<const HalfedgeId> edges = {})
+      : TriangleDemand(surface.connectivity(), constraints, edges), surface_(surface) {
+    set_curved();
+  }
+
+  [[nodiscard]] std::vector<WeightEdge> edges_of(std::span<const CellId> cells) const override;
+  [[nodiscard]] LinearForm linear_form(const WeightConstraint& constraint) const override;
+  [[nodiscard]] double scale_of_polynomial(const WeightConstraint& constraint) const override;
+  [[nodiscard]] bool is_kept(CellId cell, const VertexWeights& weights) const override;
+  [[nodiscard]] double angle_deg(const WeightConstraint& constraint) const override;
+  [[nodiscard]] CertificateCheck check(const Certificate& certificate) const override;
+  /// Precondition: no goal of the caller needs it.
+  [[nodiscard]] std::vector<OffsetTerm> offsets(const WeightOptions& options) const override;
+  [[nodiscard]] double reach(VertexId p, VertexId q, std::span<const VertexId> corners) const override;
+
+ private:
+  /// The triangle of the halfedge from p to q, or of its twin.
+  [[nodiscard]] MetricTriangle triangle(VertexId p, VertexId q) const;
+  [[nodiscard]] double squared_distance(VertexId p, VertexId q) const { return triangle(p, q).pq; }
+  [[nodiscard]] LinearForm form_of_height(VertexId p, VertexId q, VertexId r) const;
+
+  const IntrinsicMesh& surface_;
 };
 
 }  // namespace temper::surfaces

@@ -263,6 +263,52 @@ TEST(SurfaceWeights, FewestViolatesFewConstraintsAndNoneWithoutNeed) {
   EXPECT_GT(report.attained, 0);
 }
 
+TEST(IntrinsicWeights, BeforeFlipsAreThoseOfTheMesh) {
+  for (const SurfaceMesh& mesh : {rough_sphere(0.35, 3), rough_sphere(0.1, 3, 0.3), saddle(1, 0.3)}) {
+    const IntrinsicMesh intrinsic(mesh);
+    for (const Constraints constraints :
+         {Constraints::well_centered, Constraints::heights_only, Constraints::regular, Constraints::coefficients}) {
+      EXPECT_NEAR(weight_margin(intrinsic, constraints), weight_margin(mesh, constraints), 1e-11);
+      WeightOptions options;
+      options.goal = WeightGoal::margin;
+      options.constraints = constraints;
+      const WeightReport there = weights_of(mesh, options);
+      const auto here = find_weights(intrinsic, *clp_solver(), options);
+      ASSERT_TRUE(here);
+      EXPECT_EQ(here->verdict, there.verdict);
+      EXPECT_NEAR(here->margin, there.margin, 1e-7);
+      if (here->verdict != Feasibility::infeasible) continue;
+      EXPECT_EQ(check_certificate(intrinsic, here->certificate), CertificateCheck::proves) << name(constraints);
+      EXPECT_EQ(check_certificate(intrinsic, there.certificate), CertificateCheck::proves) << name(constraints);
+      Certificate wrong = here->certificate;
+      wrong.terms.resize(1);
+      EXPECT_EQ(check_certificate(intrinsic, wrong), CertificateCheck::proves_nothing);
+    }
+  }
+}
+
+TEST(IntrinsicWeights, NeedFlipsWhereTheMeshItselfHasNoWeights) {
+  int cured = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const SurfaceMesh mesh = rough_sphere(0.35, seed, 0.6);
+    WeightOptions options;
+    options.goal = WeightGoal::fewest;
+    const std::size_t own = n_bad_triangles(IntrinsicMesh(with(mesh, weights_of(mesh, options).weights)));
+    IntrinsicMesh intrinsic(mesh);
+    const auto found = find_intrinsic_weights(intrinsic, *clp_solver(), options, interior_point_solver().get());
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->bad_before, n_bad_triangles(IntrinsicMesh(mesh)));
+    EXPECT_EQ(found->bad_after, n_bad_triangles(intrinsic));
+    EXPECT_LE(found->bad_after, own);
+    EXPECT_EQ(found->flips.flips > 0, own > 0);
+    cured += own > 0 && found->bad_after == 0 ? 1 : 0;
+    const bool proves = check_certificate(intrinsic, found->report.certificate) == CertificateCheck::proves;
+    EXPECT_TRUE(proves || found->report.verdict != Feasibility::infeasible);
+    for (const VertexId v : mesh.vertices()) EXPECT_EQ(intrinsic.weight(v), found->report.weights[v]);
+  }
+  EXPECT_GE(cured, 1);
+}
+
 TEST(SurfaceWeights, ATorusOfTrapezoidsHasTheBestMarginZero) {
   // The best weights may depend on the height alone, by symmetry. Then the corners of each trapezoid stay cocircular.
   const SurfaceMesh torus = test::mesh_of(test::torus(12, 8));

@@ -1,0 +1,151 @@
+// Weights of intrinsic triangulations: the constraints of surfaces with lengths in place of points, and the search that
+// flips between two programs.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/assert.hpp"
+#include "surfaces/weights/demand.hpp"
+
+namespace temper::surfaces {
+namespace {
+
+using Kind = WeightConstraint::Kind;
+
+constexpr std::size_t kMostRounds = 8;
+
+/// Products of the edges at the corners p, q and r.
+std::array<double, 3> dots(const MetricTriangle& t) {
+  return {0.5 * (t.pq + t.rp - t.qr), 0.5 * (t.pq + t.qr - t.rp), 0.5 * (t.qr + t.rp - t.pq)};
+}
+
+std::size_t n_bad(const IntrinsicDemand& demand, const VertexWeights& weights) {
+  const auto cells = demand.cells();
+  return static_cast<std::size_t>(
+      std::count_if(cells.begin(), cells.end(), [&](CellId cell) { return !demand.is_kept(cell, weights); }));
+}
+
+void set_weights(IntrinsicMesh& mesh, const VertexWeights& weights) {
+  for (const VertexId v : mesh.connectivity().vertices()) mesh.set_weight(v, weights[v]);
+}
+
+}  // namespace
+
+MetricTriangle IntrinsicDemand::triangle(VertexId p, VertexId q) const {
+  const HalfedgeId h = mesh().find_halfedge(p, q);
+  return surface_.triangle(h.valid() ? h : mesh().find_halfedge(q, p));
+}
+
+std::vector<WeightEdge> IntrinsicDemand::edges_of(std::span<const CellId> cells) const {
+  std::vector<WeightEdge> edges;
+  for (const HalfedgeId h : temper::edges_of(mesh(), as_triangles(cells)))
+    edges.push_back({mesh().origin(h), mesh().target(h), surface_.squared_length(h)});
+  return edges;
+}
+
+LinearForm IntrinsicDemand::form_of_height(VertexId p, VertexId q, VertexId r) const {
+  const MetricTriangle t = triangle(p, q);
+  return height_form({Kind::height, p, q, r}, t.pq, dots(t), doubled_area(t));
+}
+
+LinearForm IntrinsicDemand::linear_form(const WeightConstraint& c) const {
+  if (c.kind == Kind::crossing) return crossing_form(c, squared_distance(c.p, c.q));
+  const LinearForm left = form_of_height(c.p, c.q, c.r);
+  return c.kind == Kind::height ? left : dual_form(c, left, form_of_height(c.q, c.p, c.s));
+}
+
+double IntrinsicDemand::scale_of_polynomial(const WeightConstraint& c) const {
+  const MetricTriangle t = triangle(c.p, c.q);
+  if (c.kind == Kind::crossing) return 2 * t.pq;
+  const double left = 2 * t.pq * doubled_area(t);
+  return c.kind == Kind::height ? left : left * doubled_area(triangle(c.q, c.p));
+}
+
+bool IntrinsicDemand::is_kept(CellId cell, const VertexWeights& weights) const {
+  const auto at = [&](HalfedgeId h) {
+    MetricTriangle t = surface_.triangle(h);
+    t.wp = weights[mesh().origin(h)], t.wq = weights[mesh().target(h)], t.wr = weights[mesh().opposite(h)];
+    return t;
+  };
+  if (has_crossings()) return is_well_centered(at(Mesh::halfedge(TriangleId(cell.index), 0)));
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(TriangleId(cell.index), k);
+    if (has_height(h) && !is_good(signed_height_sign(at(h)))) return false;
+    if (has_dual(h) && !is_good(dual_length_sign(at(h), at(mesh().twin(h))))) return false;
+  }
+  return true;
+}
+
+double IntrinsicDemand::angle_deg(const WeightConstraint& c) const {
+  if (c.kind != Kind::height) return 0;
+  const MetricTriangle t = triangle(c.p, c.q);
+  return std::atan2(doubled_area(t), dots(t)[2]) * (180 / std::numbers::pi);
+}
+
+CertificateCheck IntrinsicDemand::check(const Certificate& certificate) const {
+  return check_certificate(surface_, certificate);
+}
+
+std::vector<OffsetTerm> IntrinsicDemand::offsets(const WeightOptions& /*options*/) const {
+  TEMPER_ASSERT(false);
+  return {};
+}
+
+double IntrinsicDemand::reach(VertexId p, VertexId q, std::span<const VertexId> corners) const {
+  const double l2 = squared_distance(p, q);
+  if (has_duals()) return (1 + 2 * kCrossingReach) * l2;
+  double most = l2;
+  for (const VertexId r : corners) {
+    if (!has_crossings() && r != p && r != q)
+      most = std::max(most, std::abs(squared_distance(p, r) - squared_distance(q, r)));
+  }
+  return most;
+}
+
+double weight_margin(const IntrinsicMesh& mesh, Constraints constraints) {
+  const IntrinsicDemand demand(mesh, constraints);
+  return least_margin(demand, demand.weights());
+}
+
+std::size_t n_bad_triangles(const IntrinsicMesh& mesh, Constraints constraints) {
+  const IntrinsicDemand demand(mesh, constraints);
+  return n_bad(demand, demand.weights());
+}
+
+Expected<WeightReport> find_weights(const IntrinsicMesh& mesh, LpSolver& solver, const WeightOptions& options,
+                                    ConvexSolver* convex) {
+  if (auto error = expect_surface_request(mesh.connectivity(), options, convex)) return *std::move(error);
+  return temper::find_weights(IntrinsicDemand(mesh, options.constraints, options.edges), solver, options, convex);
+}
+
+Expected<IntrinsicWeights> find_intrinsic_weights(IntrinsicMesh& mesh, LpSolver& solver, const WeightOptions& options,
+                                                  ConvexSolver* convex) {
+  const VertexWeights zero(mesh.connectivity().n_vertices(), 0.0);
+  const VertexWeights start = options.from_input ? IntrinsicDemand(mesh, options.constraints).weights() : zero;
+  IntrinsicMesh now = mesh;
+  set_weights(now, start);
+  IntrinsicWeights best;
+  best.bad_before = n_bad_triangles(now, options.constraints);
+  IntrinsicFlips flips;
+  for (std::size_t round = 0; round < kMostRounds; ++round) {
+    if (round > 0) {
+      const IntrinsicFlips more = flip_to_regular(now);
+      if (more.flips == 0) break;
+      flips = {flips.flips + more.flips, more.blocked};
+    }
+    IntrinsicMesh weighted = now;
+    set_weights(weighted, start);
+    auto found = find_weights(weighted, solver, options, convex);
+    if (!found) return std::move(found).error();
+    set_weights(weighted, found->weights);
+    const std::size_t bad = n_bad_triangles(weighted, options.constraints);
+    if (round > 0) now = weighted;  // the first flips are those of the weights at the start
+    if (round > 0 && bad >= best.bad_after) break;
+    mesh = std::move(weighted);
+    best = {*std::move(found), flips, best.bad_before, bad, round + 1};
+    if (bad == 0 || (options.must_stop && options.must_stop())) break;
+  }
+  return best;
+}
+
+}  // namespace temper::surfaces
