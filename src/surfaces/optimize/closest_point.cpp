@@ -72,31 +72,35 @@ void ClosestPoints::build(std::size_t node, std::size_t first, std::size_t last)
   build(2 * node + 2, half, last);
 }
 
-ClosestPoint ClosestPoints::find(Vec3 p) const {
-  ClosestPoint best;
-  best.squared_distance = std::numeric_limits<double>::infinity();
-  if (!order_.empty()) search(0, 0, order_.size(), p, best);
-  return best;
+ClosestPoint ClosestPoints::find(Vec3 p, double enough) const {
+  Search state{p, enough * enough, {}};
+  state.best.squared_distance = std::numeric_limits<double>::infinity();
+  if (!order_.empty()) search(0, 0, order_.size(), state);
+  return state.best;
 }
 
-void ClosestPoints::search(std::size_t node, std::size_t first, std::size_t last, Vec3 p, ClosestPoint& best) const {
+void ClosestPoints::search(std::size_t node, std::size_t first, std::size_t last, Search& state) const {
   if (last - first <= kLeaf) {
+    ClosestPoint& best = state.best;
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t t = order_[i];
-      const Vec3 at = closest_point(triangles_[t], p);
-      const double distance = squared_length(at - p);
+      const Vec3 at = closest_point(triangles_[t], state.p);
+      const double distance = squared_length(at - state.p);
       if (distance < best.squared_distance || (distance == best.squared_distance && t < best.triangle))
         best = {at, distance, t};
     }
     return;
   }
   const std::size_t half = (first + last) / 2, left = 2 * node + 1, right = left + 1;
-  const double to_left = squared_distance(boxes_[left], p), to_right = squared_distance(boxes_[right], p);
+  const double to_left = squared_distance(boxes_[left], state.p), to_right = squared_distance(boxes_[right], state.p);
+  const auto may_help = [&](double distance) {
+    return distance <= state.best.squared_distance && !(state.best.squared_distance < state.enough2);
+  };
   const auto visit_left = [&] {
-    if (to_left <= best.squared_distance) search(left, first, half, p, best);
+    if (may_help(to_left)) search(left, first, half, state);
   };
   const auto visit_right = [&] {
-    if (to_right <= best.squared_distance) search(right, half, last, p, best);
+    if (may_help(to_right)) search(right, half, last, state);
   };
   if (to_left <= to_right) {
     visit_left(), visit_right();

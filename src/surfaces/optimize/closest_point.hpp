@@ -23,9 +23,12 @@ class ClosestPoints {
  public:
   explicit ClosestPoints(const SurfaceMesh& mesh);
 
-  /// Of equally close points always the same. O(log n) for points near the surface.
-  [[nodiscard]] ClosestPoint find(Vec3 p) const;
-  [[nodiscard]] double distance(Vec3 p) const { return std::sqrt(find(p).squared_distance); }
+  /// Of equally close points always the same. A point within `enough` of p, closest or not, ends the search. O(log n)
+  /// for points near the surface.
+  [[nodiscard]] ClosestPoint find(Vec3 p, double enough = 0) const;
+  [[nodiscard]] bool is_within(double distance, Vec3 p) const {
+    return find(p, distance).squared_distance <= distance * distance;
+  }
 
  private:
   using Triangle = std::array<Vec3, 3>;
@@ -33,7 +36,12 @@ class ClosestPoints {
 
   [[nodiscard]] BoundingBox box_of(std::size_t first, std::size_t last) const;
   void build(std::size_t node, std::size_t first, std::size_t last);
-  void search(std::size_t node, std::size_t first, std::size_t last, Vec3 p, ClosestPoint& best) const;
+  struct Search {
+    Vec3 p;
+    double enough2;
+    ClosestPoint best;
+  };
+  void search(std::size_t node, std::size_t first, std::size_t last, Search& state) const;
 
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> order_;

@@ -28,7 +28,7 @@ double dual_of(const SurfaceMesh& mesh, const inlined::Quad& q) {
   return dual_over_length(mesh.point(q.a), mesh.point(q.b), mesh.point(q.c), mesh.point(q.d));
 }
 
-bool may_flip(const SurfaceMesh& mesh, HalfedgeId h, const FlipRules& rules) {
+bool may_flip(const SurfaceMesh& mesh, HalfedgeId h, const Nearness& nearness) {
   const Mesh& connectivity = mesh.connectivity();
   const inlined::Quad q = inlined::quad(connectivity, h);
   if (q.c == q.d || connectivity.find_halfedge(q.c, q.d).valid() || connectivity.find_halfedge(q.d, q.c).valid())
@@ -42,20 +42,12 @@ bool may_flip(const SurfaceMesh& mesh, HalfedgeId h, const FlipRules& rules) {
   const double thinnest = std::min({kThin, width_of({a, b, c}), width_of({b, a, d})});
   if (std::min(width_of({d, c, a}), width_of({c, d, b})) < thinnest) return false;
   if (!(dual_of(mesh, {q.d, q.c, q.a, q.b}) > dual_of(mesh, q))) return false;
-  return distance_of(rules.input, d, c, a) <= rules.most_distance &&
-         distance_of(rules.input, c, d, b) <= rules.most_distance;
+  return nearness.is_near({d, c, a}) && nearness.is_near({c, d, b});
 }
 
 }  // namespace
 
-double distance_of(const ClosestPoints& surface, Vec3 a, Vec3 b, Vec3 c) {
-  const Vec3 places[] = {(1.0 / 3) * (a + b + c), 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)};
-  double most = 0;
-  for (const Vec3 p : places) most = std::max(most, surface.distance(p));
-  return most;
-}
-
-std::size_t flip_negative_duals(SurfaceMesh& mesh, const FlipRules& rules) {
+std::size_t flip_negative_duals(SurfaceMesh& mesh, const Nearness& nearness) {
   Mesh& connectivity = SurfaceEditor(mesh).connectivity();
   std::size_t flips = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -70,7 +62,7 @@ std::size_t flip_negative_duals(SurfaceMesh& mesh, const FlipRules& rules) {
     const std::size_t before = flips;
     for (const auto& [dual, h] : negative) {
       const TriangleId s = Mesh::triangle(h), t = Mesh::triangle(connectivity.twin(h));
-      if (touched[s] != 0 || touched[t] != 0 || !may_flip(mesh, h, rules)) continue;
+      if (touched[s] != 0 || touched[t] != 0 || !may_flip(mesh, h, nearness)) continue;
       inlined::flip(connectivity, h);
       touched[s] = touched[t] = 1;
       ++flips;

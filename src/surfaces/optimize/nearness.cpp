@@ -29,19 +29,24 @@ Nearness::Nearness(const SurfaceMesh& input, double most) : closest_(input), mos
   for_each_sample(input, [&](Vec3 p, TriangleId) { samples_.push_back(p); });
 }
 
+bool Nearness::is_near(const std::array<Vec3, 3>& triangle) const {
+  const auto& [a, b, c] = triangle;
+  const Vec3 places[] = {(1.0 / 3) * (a + b + c), 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)};
+  return std::all_of(std::begin(places), std::end(places), [&](Vec3 p) { return closest_.is_within(most_, p); });
+}
+
 std::vector<VertexId> Nearness::too_far(const SurfaceMesh& mesh) const {
   std::vector<VertexId> vertices;
   const auto add = [&](TriangleId t) {
     for (const VertexId v : mesh.connectivity().corners(t)) vertices.push_back(v);
   };
-  const double most2 = most_ * most_;
   for_each_sample(mesh, [&](Vec3 p, TriangleId t) {
-    if (closest_.find(p).squared_distance > most2) add(t);
+    if (!closest_.is_within(most_, p)) add(t);
   });
   const ClosestPoints now(mesh);
   for (const Vec3 p : samples_) {
-    const ClosestPoint closest = now.find(p);
-    if (closest.squared_distance > most2) add(TriangleId(closest.triangle));
+    const ClosestPoint closest = now.find(p, most_);
+    if (closest.squared_distance > most_ * most_) add(TriangleId(closest.triangle));
   }
   sort_unique(vertices);
   return vertices;

@@ -39,19 +39,30 @@ double diagonal_of(const SurfaceMesh& mesh) {
   return length(box.high - box.low);
 }
 
-/// The halfedges of creases that are not constrained yet.
+/// The halfedges of creases that are not constrained yet. A thin triangle with two such edges stands off the surface:
+/// its normal says nothing about it.
 std::vector<HalfedgeId> creases_of(const SurfaceMesh& mesh, double angle_deg) {
   const Mesh& connectivity = mesh.connectivity();
   const auto normal = [&](HalfedgeId h) {
     const auto [a, b, c] = mesh.points(Mesh::triangle(h));
     return normal_of(a.position(), b.position(), c.position());
   };
+  const auto is_sharp = [&](HalfedgeId h) {
+    if (connectivity.is_boundary(h)) return false;
+    const Vec3 left = normal(h), right = normal(connectivity.twin(h));
+    return std::atan2(length(cross(left, right)), dot(left, right)) * (180 / std::numbers::pi) > angle_deg;
+  };
+  const auto stands_off = [&](TriangleId t) {
+    const auto [a, b, c] = mesh.points(t);
+    if (width_of({a.position(), b.position(), c.position()}) >= kThin) return false;
+    int sharp = 0;
+    for (int k = 0; k < 3; ++k) sharp += is_sharp(Mesh::halfedge(t, k)) ? 1 : 0;
+    return sharp >= 2;
+  };
   std::vector<HalfedgeId> creases;
   for (const HalfedgeId h : mesh.halfedges()) {
-    if (connectivity.is_unflippable(h) || !connectivity.is_edge_representative(h)) continue;
-    const Vec3 left = normal(h), right = normal(connectivity.twin(h));
-    const double turn = std::atan2(length(cross(left, right)), dot(left, right)) * (180 / std::numbers::pi);
-    if (turn > angle_deg) creases.push_back(h);
+    if (connectivity.is_unflippable(h) || !connectivity.is_edge_representative(h) || !is_sharp(h)) continue;
+    if (!stands_off(Mesh::triangle(h)) && !stands_off(Mesh::triangle(connectivity.twin(h)))) creases.push_back(h);
   }
   return creases;
 }
@@ -128,7 +139,7 @@ void Run::move_all(State& state, bool with_weights) {
     if (!take_back(state.mesh, before, nearness)) state.mesh = before;
     if (options.may_flip) {
       const SurfaceMesh unflipped = state.mesh;
-      const std::size_t n = flip_negative_duals(state.mesh, {nearness.input(), nearness.most()});
+      const std::size_t n = flip_negative_duals(state.mesh, nearness);
       if (n > 0 && !nearness.too_far(state.mesh).empty()) {
         state.mesh = unflipped;
       } else {
@@ -180,14 +191,14 @@ Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const Surf
   const Nearness nearness(mesh, options.surface_distance * report.diagonal);
   Run run{options, nearness, solver};
 
-  State input{mesh, {}, {}, run.bad(mesh)};
+  State input{mesh, {}, {}, {}, run.bad(mesh)};
   Mesh& connectivity = SurfaceEditor(input.mesh).connectivity();
-  std::vector<std::array<VertexId, 2>> creases;
   for (const HalfedgeId h : creases_of(mesh, options.crease_angle_deg)) {
-    creases.push_back({mesh.connectivity().origin(h), mesh.connectivity().target(h)});
+    input.creases.push_back(ascending(mesh.connectivity().origin(h), mesh.connectivity().target(h)));
     connectivity.set_constrained(h, true);
   }
-  report.crease_edges = creases.size();
+  std::sort(input.creases.begin(), input.creases.end());
+  report.crease_edges = input.creases.size();
   input.holds = held_vertices(input.mesh);
   for (const VertexId v : mesh.vertices()) input.origins.push_back(v);
 
@@ -207,14 +218,7 @@ Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const Surf
   report.stopped = run.must_stop();
 
   Mesh& result = SurfaceEditor(best.mesh).connectivity();
-  IdVector<VertexId, VertexId> numbers(mesh.n_vertices());
-  for (const VertexId v : best.mesh.vertices()) {
-    if (best.origins[v].valid()) numbers[best.origins[v]] = v;
-  }
-  for (const auto& [a, b] : creases) {
-    const HalfedgeId h = result.find_halfedge(numbers[a], numbers[b]);
-    result.set_constrained(h.valid() ? h : result.find_halfedge(numbers[b], numbers[a]), false);
-  }
+  for (const auto& [a, b] : best.creases) result.set_constrained(result.find_halfedge(a, b), false);
   mesh = std::move(best.mesh);
   report.after = quality(mesh);
   report.violations_before = violations(report.before, options.criterion);

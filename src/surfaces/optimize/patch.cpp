@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "base/sort_unique.hpp"
 #include "surfaces/optimize/flips.hpp"
@@ -10,8 +11,9 @@
 namespace temper::surfaces {
 namespace {
 
-constexpr double kGammas[] = {0.3, 0.1, 0.03, 0.01};
+constexpr double kGammas[] = {0.1, 0.03, 0.01};
 constexpr int kStepsOfPatch = 25;
+constexpr double kLeastPart = 0.2;    // of an edge of a crease, between one of its ends and the new vertex
 constexpr double kLeastFacing = 0.5;  // least cosine between new normals and the mean of the old ones
 
 /// Arrays for SurfaceMesh::build.
@@ -37,12 +39,16 @@ struct Arrays {
   }
 };
 
+bool is_in(const std::vector<std::array<VertexId, 2>>& edges, const std::array<VertexId, 2>& edge) {
+  return std::binary_search(edges.begin(), edges.end(), edge);
+}
+
 std::int32_t number(VertexId v) { return static_cast<std::int32_t>(v.index); }
 
 }  // namespace
 
-Patch::Patch(const State& state, TriangleId center, int rings) : mesh_(state.mesh) {
-  const Mesh& mesh = mesh_.connectivity();
+Patch::Patch(const State& state, TriangleId center, int rings) : state_(state) {
+  const Mesh& mesh = state.mesh.connectivity();
   const auto corners = mesh.corners(center);
   std::vector<VertexId> vertices(corners.begin(), corners.end());
   for (int ring = 0; ring < rings; ++ring) {
@@ -72,7 +78,7 @@ Patch::Patch(const State& state, TriangleId center, int rings) : mesh_(state.mes
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(t, k);
       const VertexId p = local(mesh.origin(h)), q = local(mesh.target(h));
-      if (mesh.is_constrained(h)) constrained_.push_back({std::min(p, q), std::max(p, q)});
+      if (mesh.is_constrained(h)) constrained_.push_back(ascending(p, q));
     }
   }
   sort_unique(constrained_);
@@ -80,7 +86,7 @@ Patch::Patch(const State& state, TriangleId center, int rings) : mesh_(state.mes
     bool is_inside = true;
     for (const HalfedgeId h : mesh.star(v))
       is_inside = is_inside && std::binary_search(cells_.begin(), cells_.end(), Mesh::triangle(h));
-    draft_.points.push_back(mesh_.point(v));
+    draft_.points.push_back(state.mesh.point(v));
     draft_.moves.push_back(is_inside && state.holds[v] == 0 ? 1 : 0);
     draft_.weighs.push_back(is_inside && !mesh.is_frozen(v) ? 1 : 0);
   }
@@ -99,13 +105,15 @@ std::optional<Patch::Side> Patch::side(VertexId a, VertexId b) const {
 bool Patch::has_edge(VertexId a, VertexId b) const {
   if (side(a, b) || side(b, a)) return true;
   const VertexId p = global_[a.index], q = global_[b.index];
-  const Mesh& mesh = mesh_.connectivity();
+  const Mesh& mesh = state_.mesh.connectivity();
   return p.valid() && q.valid() && draft_.moves[a] == 0 && draft_.moves[b] == 0 &&
          (mesh.find_halfedge(p, q).valid() || mesh.find_halfedge(q, p).valid());
 }
 
-bool Patch::is_locked(VertexId a, VertexId b) const {
-  return std::binary_search(constrained_.begin(), constrained_.end(), std::array{std::min(a, b), std::max(a, b)});
+bool Patch::is_locked(VertexId a, VertexId b) const { return is_in(constrained_, ascending(a, b)); }
+
+bool Patch::is_crease(VertexId a, VertexId b) const {
+  return is_in(state_.creases, ascending(global_[a.index], global_[b.index]));
 }
 
 std::vector<VertexId> Patch::neighbors(VertexId v) const {
@@ -170,12 +178,15 @@ bool Patch::flip(VertexId a, VertexId b) {
 
 bool Patch::split(VertexId a, VertexId b, const Nearness& nearness) {
   const auto left = side(a, b), right = side(b, a);
-  if (!left || !right || is_locked(a, b)) return false;
+  if (!left || !right || (is_locked(a, b) && !is_crease(a, b))) return false;
   const VertexId c = left->across, d = right->across, m(global_.size());
-  const Vec3 at = nearness.input().find(0.5 * (place(a) + place(b))).at;
-  const double l2 = squared_length(place(b) - place(a));
-  draft_.points.push_back({at.x, at.y, at.z, split_weight(draft_.points[a].w, draft_.points[b].w, l2, 0.5)});
-  draft_.moves.push_back(1);
+  if (is_crease(a, b)) cut_ = {a, b, m};
+  const Vec3 ab = place(b) - place(a);
+  const double l2 = squared_length(ab);
+  const double part = cut_ ? std::clamp(dot(place(c) - place(a), ab) / l2, kLeastPart, 1 - kLeastPart) : 0.5;
+  const Vec3 at = nearness.input().find(place(a) + part * ab).at;
+  draft_.points.push_back({at.x, at.y, at.z, split_weight(draft_.points[a].w, draft_.points[b].w, l2, part)});
+  draft_.moves.push_back(cut_ ? 0 : 1);
   draft_.weighs.push_back(1);
   global_.emplace_back();
   draft_.triangles[left->triangle] = {a, m, c};
@@ -216,6 +227,11 @@ void Patch::descend(const Run& run) {
     energy.lower(kStepsOfPatch, [&run] { return run.must_stop(); });
     energy.project(run.nearness.input());
   }
+  // What projections cost is left to the weights.
+  const auto moves = std::exchange(draft_.moves, IdVector<VertexId, std::uint8_t>(draft_.moves.size(), 0));
+  for (const double gamma : kGammas)
+    DraftEnergy(draft_, gamma).lower(kStepsOfPatch, [&run] { return run.must_stop(); });
+  draft_.moves = moves;
 }
 
 std::optional<std::size_t> Patch::bad(const Run& run) const {
@@ -223,7 +239,7 @@ std::optional<std::size_t> Patch::bad(const Run& run) const {
   std::vector<std::int32_t> numbers(global_.size(), -1);
   for (std::size_t t = 0; t < draft_.triangles.size(); ++t) {
     const auto& [a, b, c] = draft_.triangles[t];
-    if (distance_of(run.nearness.input(), place(a), place(b), place(c)) > run.nearness.most()) return std::nullopt;
+    if (!run.nearness.is_near({place(a), place(b), place(c)})) return std::nullopt;
     arrays.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId v = draft_.triangles[t][k];
@@ -241,10 +257,20 @@ std::optional<std::size_t> Patch::bad(const Run& run) const {
   return run.bad(*mesh);
 }
 
-std::optional<State> Patch::in(const State& state) const {
-  const Mesh& old = state.mesh.connectivity();
+std::vector<std::array<VertexId, 2>> Patch::creases(const std::vector<VertexId>& number_of_local) const {
+  std::vector<std::array<VertexId, 2>> all = state_.creases;
+  if (!cut_) return all;
+  const auto in_mesh = [&](std::size_t k) { return number_of_local[(*cut_)[k].index]; };
+  all.erase(std::find(all.begin(), all.end(), ascending(in_mesh(0), in_mesh(1))));
+  all.push_back({in_mesh(0), in_mesh(2)});
+  all.push_back({in_mesh(1), in_mesh(2)});
+  return all;
+}
+
+std::optional<State> Patch::applied() const {
+  const Mesh& old = state_.mesh.connectivity();
   IdVector<VertexId, WeightedPoint> points;
-  for (const VertexId v : state.mesh.vertices()) points.push_back(state.mesh.point(v));
+  for (const VertexId v : state_.mesh.vertices()) points.push_back(state_.mesh.point(v));
   std::vector<VertexId> number_of_local;
   std::size_t n = points.size();
   for (std::size_t i = 0; i < global_.size(); ++i) {
@@ -255,7 +281,7 @@ std::optional<State> Patch::in(const State& state) const {
   }
   std::vector<Corners> triangles;
   Arrays arrays;
-  for (const TriangleId t : state.mesh.triangles()) {
+  for (const TriangleId t : state_.mesh.triangles()) {
     if (std::binary_search(cells_.begin(), cells_.end(), t)) continue;
     triangles.push_back(old.corners(t));
     arrays.regions.push_back(old.region(t));
@@ -275,15 +301,22 @@ std::optional<State> Patch::in(const State& state) const {
     kept[v] = VertexId(arrays.points.size());
     arrays.add(points[v]);
     const bool is_new = v.index >= old.n_vertices();
-    next.holds.push_back(is_new ? 0 : state.holds[v]);
-    next.origins.push_back(is_new ? VertexId() : state.origins[v]);
+    next.holds.push_back(is_new ? (cut_ ? 1 : 0) : state_.holds[v]);
+    next.origins.push_back(is_new ? VertexId() : state_.origins[v]);
     if (!is_new && old.is_fixed(v)) arrays.fixed.push_back(number(kept[v]));
   }
   for (const auto& [a, b, c] : triangles)
     arrays.triangles.push_back({number(kept[a]), number(kept[b]), number(kept[c])});
+  next.creases = creases(number_of_local);
+  for (auto& [a, b] : next.creases) {
+    a = kept[a], b = kept[b];
+    arrays.constrained.push_back({number(a), number(b)});
+  }
+  std::sort(next.creases.begin(), next.creases.end());
   for (const HalfedgeId h : old.halfedges()) {
-    if (old.is_constrained(h) && old.is_edge_representative(h))
-      arrays.constrained.push_back({number(kept[old.origin(h)]), number(kept[old.target(h)])});
+    const std::array<VertexId, 2> edge = ascending(old.origin(h), old.target(h));
+    if (old.is_constrained(h) && old.is_edge_representative(h) && !is_in(state_.creases, edge))
+      arrays.constrained.push_back({number(kept[edge[0]]), number(kept[edge[1]])});
   }
   std::optional<SurfaceMesh> mesh = arrays.build();
   if (!mesh) return std::nullopt;

@@ -34,7 +34,7 @@ class Patch {
   /// Number of cells at violations, if this is a surface near enough to the input.
   [[nodiscard]] std::optional<std::size_t> bad(const Run& run) const;
   /// The mesh with this patch in place of its triangles; nothing if that is no surface.
-  [[nodiscard]] std::optional<State> in(const State& state) const;
+  [[nodiscard]] std::optional<State> applied() const;
 
  private:
   using Corners = std::array<VertexId, 3>;
@@ -49,7 +49,10 @@ class Patch {
   [[nodiscard]] std::optional<Side> side(VertexId a, VertexId b) const;
   [[nodiscard]] bool has_edge(VertexId a, VertexId b) const;
   [[nodiscard]] bool is_locked(VertexId a, VertexId b) const;
+  [[nodiscard]] bool is_crease(VertexId a, VertexId b) const;
   [[nodiscard]] std::vector<VertexId> neighbors(VertexId v) const;
+  /// The creases of the mesh with this patch, before its vertices are numbered again.
+  [[nodiscard]] std::vector<std::array<VertexId, 2>> creases(const std::vector<VertexId>& number_of_local) const;
   [[nodiscard]] bool flip(VertexId a, VertexId b);
   [[nodiscard]] bool split(VertexId a, VertexId b, const Nearness& nearness);
   [[nodiscard]] bool collapse(VertexId a, VertexId b);
@@ -59,8 +62,9 @@ class Patch {
   Draft draft_;
   std::vector<std::int32_t> regions_;                 ///< Of the triangles
   std::vector<VertexId> global_;                      ///< Numbers in the mesh; invalid for new vertices
-  std::vector<std::array<VertexId, 2>> constrained_;  ///< Edges, each from its lower vertex
-  const SurfaceMesh& mesh_;
+  std::vector<std::array<VertexId, 2>> constrained_;  ///< Edges with creases, each from its lower vertex
+  std::optional<std::array<VertexId, 3>> cut_;        ///< A crease edge that was split: its ends, and the new vertex
+  const State& state_;
 };
 
 }  // namespace temper::surfaces

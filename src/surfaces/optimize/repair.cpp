@@ -11,9 +11,9 @@
 namespace temper::surfaces {
 namespace {
 
-constexpr int kRings[] = {2, 4};
-// Trials of one run. With more the time of a run would grow without gain: of 20 trials less than one helps.
-constexpr std::size_t kMostTrials = 1000;
+constexpr int kRings[] = {2, 4, 8};
+// So many trials one after the other without a gain end the repairs. Of 20 trials less than one helps.
+constexpr std::size_t kMostTrials = 600;
 
 using Place = std::array<double, 3>;
 
@@ -42,7 +42,7 @@ std::optional<State> best_edit(Run& run, const State& state, TriangleId center, 
     best.emplace(std::move(trial));
   }
   if (!best) return std::nullopt;
-  std::optional<State> next = best->in(state);
+  std::optional<State> next = best->applied();
   if (!next) return std::nullopt;
   next->bad = run.bad(next->mesh);
   if (next->bad >= state.bad || !run.nearness.too_far(next->mesh).empty()) return std::nullopt;
@@ -63,6 +63,7 @@ void Run::repair(State& state) {
         if (std::optional<State> next = best_edit(*this, state, t, rings)) {
           state = *std::move(next);
           ++repairs;
+          trials = 0;
           changed = true;
           break;
         }

@@ -7,6 +7,8 @@
 // Two starts compete: moves alone, with weights at the end; and moves with weights.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -17,19 +19,25 @@
 
 namespace temper::surfaces {
 
+[[nodiscard]] inline std::array<VertexId, 2> ascending(VertexId a, VertexId b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
 /// A mesh of a run with its counts.
 struct State {
   SurfaceMesh mesh;
-  IdVector<VertexId, std::uint8_t> holds;  ///< Vertices that must stay at their places
-  IdVector<VertexId, VertexId> origins;    ///< Their numbers in the input
-  std::size_t bad = 0;                     ///< Number of cells at violations
+  IdVector<VertexId, std::uint8_t> holds;        ///< Vertices that must stay at their places
+  IdVector<VertexId, VertexId> origins;          ///< Their numbers in the input
+  std::vector<std::array<VertexId, 2>> creases;  ///< Each from its lower vertex; ascending
+  std::size_t bad = 0;                           ///< Number of cells at violations
 };
 
 struct Run {
   const SurfaceOptions& options;
   const Nearness& nearness;
   LpSolver& solver;
-  std::size_t rounds = 0, flips = 0, repairs = 0, trials = 0;
+  std::size_t rounds = 0, flips = 0, repairs = 0;
+  std::size_t trials = 0;  ///< Of repairs, since the last one that helped
 
   [[nodiscard]] bool must_stop() const { return options.must_stop && options.must_stop(); }
   [[nodiscard]] std::size_t bad(const SurfaceMesh& mesh) const {

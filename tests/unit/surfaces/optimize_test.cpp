@@ -142,26 +142,29 @@ TEST(SurfaceClosestPoint, IsTheBestOfAllTriangles) {
   Rng rng(3);
   for (int i = 0; i < 300; ++i) {
     const Vec3 p = {rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-1, 1)};
-    EXPECT_NEAR(closest.distance(p), brute_force_distance(mesh, p), 1e-14);
+    const double distance = brute_force_distance(mesh, p);
+    EXPECT_NEAR(std::sqrt(closest.find(p).squared_distance), distance, 1e-14);
+    for (const double other : {0.5 * distance, 1.5 * distance}) {
+      EXPECT_EQ(closest.is_within(other, p), other > distance);
+      EXPECT_GE(std::sqrt(closest.find(p, other).squared_distance), distance - 1e-14);
+    }
   }
-  for (const VertexId v : mesh.vertices()) EXPECT_EQ(closest.distance(mesh.position(v)), 0);
+  for (const VertexId v : mesh.vertices()) EXPECT_EQ(closest.find(mesh.position(v)).squared_distance, 0);
 }
 
 TEST(SurfaceFlips, MakeAPlaneMeshRegularAndKeepACurvedOneWithoutDistance) {
   // A grid has no thin triangles, which keep others from flips.
   SurfaceMesh plane = test::mesh_of(shaken_grid(8, 0.2, 2));
-  const ClosestPoints of_plane(plane);
   EXPECT_GT(quality(plane).non_regular_edges, 10U);
-  EXPECT_GT(flip_negative_duals(plane, {of_plane, 1e-12}), 10U);
+  EXPECT_GT(flip_negative_duals(plane, Nearness(plane, 1e-12)), 10U);
   EXPECT_LE(quality(plane).non_regular_edges, 1U);  // corners of the grid keep three edges
   EXPECT_EQ(plane.validate(), std::nullopt);
 
   SurfaceMesh torus = shaken_torus(0.4, 2);
   const SurfaceMesh input = torus;
-  const ClosestPoints of_torus(input);
-  EXPECT_EQ(flip_negative_duals(torus, {of_torus, 0}), 0U);
+  EXPECT_EQ(flip_negative_duals(torus, Nearness(input, 0)), 0U);
   EXPECT_EQ(torus, input);
-  EXPECT_GT(flip_negative_duals(torus, {of_torus, 0.1}), 0U);
+  EXPECT_GT(flip_negative_duals(torus, Nearness(input, 0.1)), 0U);
 }
 
 TEST(SurfaceOptimize, AGoodMeshStaysBitForBit) {
@@ -258,15 +261,17 @@ TEST(SurfaceOptimize, BoundaryFixedVerticesAndConstrainedEdgesStayInThePlane) {
 
 TEST(SurfacePatch, EditsKeepTheSurfaceAndItsFlags) {
   test::SurfaceArrays arrays = test::icosphere(2);
-  arrays.constrained = {{arrays.triangles[0][0], arrays.triangles[0][1]}};
+  const std::array<std::int32_t, 2> crease = {arrays.triangles[100][0], arrays.triangles[100][1]};
+  arrays.constrained = {{arrays.triangles[0][0], arrays.triangles[0][1]}, crease};
   SurfaceInput in = arrays.input();
   const std::vector<std::int32_t> fixed = {arrays.triangles[8][0], arrays.triangles[9][1]};
   in.fixed_vertices = fixed;
-  State state{SurfaceMesh::build(in)->mesh, {}, {}, 0};
+  const auto id = [](std::int32_t v) { return VertexId(static_cast<std::size_t>(v)); };
+  State state{SurfaceMesh::build(in)->mesh, {}, {}, {ascending(id(crease[0]), id(crease[1]))}, 0};
   for (const VertexId v : state.mesh.vertices()) {
     const Mesh& mesh = state.mesh.connectivity();
-    const bool is_end = static_cast<std::int32_t>(v.index) == arrays.constrained[0][0] ||
-                        static_cast<std::int32_t>(v.index) == arrays.constrained[0][1];
+    bool is_end = false;
+    for (const auto& [a, b] : arrays.constrained) is_end = is_end || v == id(a) || v == id(b);
     state.holds.push_back(is_end || mesh.is_fixed(v) ? 1 : 0);
     state.origins.push_back(v);
   }
@@ -275,6 +280,7 @@ TEST(SurfacePatch, EditsKeepTheSurfaceAndItsFlags) {
   const auto solver = clp_solver();
   const surfaces::Run run{options, nearness, *solver};
   std::map<Edit::Kind, int> made;
+  std::size_t made_cuts = 0;
   for (const TriangleId t : {TriangleId(0), TriangleId(8), TriangleId(100)}) {
     const Patch patch(state, t, 2);
     for (const Edit& edit : patch.edits()) {
@@ -282,7 +288,7 @@ TEST(SurfacePatch, EditsKeepTheSurfaceAndItsFlags) {
       if (!trial.make(edit, nearness)) continue;
       ++made[edit.kind];
       trial.descend(run);
-      const std::optional<State> next = trial.in(state);
+      const std::optional<State> next = trial.applied();
       ASSERT_TRUE(next);
       EXPECT_EQ(next->mesh.validate(), std::nullopt);
       const Mesh& mesh = next->mesh.connectivity();
@@ -294,14 +300,22 @@ TEST(SurfacePatch, EditsKeepTheSurfaceAndItsFlags) {
         const VertexId old = next->origins[v];
         n_fixed += mesh.is_fixed(v) ? 1 : 0;
         n_held += next->holds[v];
-        EXPECT_TRUE(next->holds[v] == 0 || next->mesh.position(v) == state.mesh.position(old));
+        if (next->holds[v] == 0) continue;
+        const Vec3 p = next->mesh.position(v), a = state.mesh.position(id(crease[0]));
+        const Vec3 along = state.mesh.position(id(crease[1])) - a;
+        EXPECT_TRUE(old.valid() ? p == state.mesh.position(old) : length(cross(p - a, along)) < 1e-15);
       }
       for (const HalfedgeId h : mesh.halfedges()) n_constrained += mesh.is_constrained(h) ? 1 : 0;
+      // The crease may have been split: a vertex that is held, and one edge more.
+      const std::size_t cuts = next->creases.size() - 1;
+      made_cuts += cuts;
+      for (const auto& [a, b] : next->creases) EXPECT_TRUE(mesh.is_constrained(mesh.find_halfedge(a, b)));
       EXPECT_EQ(n_fixed, 2U);
-      EXPECT_EQ(n_held, 4U);
-      EXPECT_EQ(n_constrained, 2U);
+      EXPECT_EQ(n_held, 6U + cuts);
+      EXPECT_EQ(n_constrained, 4U + 2 * cuts);
     }
   }
+  EXPECT_EQ(made_cuts, 1U);
   EXPECT_EQ(made[Edit::Kind::none], 3);
   for (const Edit::Kind kind : {Edit::Kind::flip, Edit::Kind::split, Edit::Kind::collapse}) EXPECT_GT(made[kind], 5);
 }
@@ -362,6 +376,25 @@ TEST(SurfaceOptimize, CreasesStay) {
     ++creases;
   }
   EXPECT_EQ(creases, 56U);  // 8 corners and 4 points on each of 12 edges
+}
+
+TEST(SurfaceOptimize, AThinTriangleThatIsFoldedOverIsNoCrease) {
+  test::SurfaceArrays arrays = shaken_grid(8, 0.1, 6);
+  constexpr std::int32_t kMoved = 4 * 9 + 4;
+  for (const auto& t : arrays.triangles) {
+    const auto at = std::find(t.begin(), t.end(), kMoved);
+    if (at == t.end()) continue;
+    const auto point = [&](std::ptrdiff_t k) {
+      return arrays.points[static_cast<std::size_t>(t[(at - t.begin() + k) % 3])];
+    };
+    // A little beyond the opposite edge.
+    arrays.points[kMoved] = 0.5 * (point(1) + point(2)) + 0.05 * (0.5 * (point(1) + point(2)) - point(0));
+    break;
+  }
+  SurfaceMesh mesh = test::mesh_of(arrays);
+  const SurfaceReport report = optimized(mesh);
+  EXPECT_EQ(report.crease_edges, 0U);
+  EXPECT_EQ(report.violations_after, 0U);
 }
 
 TEST(SurfaceOptimize, TargetsOfDualsAreMet) {
