@@ -1,10 +1,12 @@
 // Intrinsic triangulations: triangles by their lengths, flips, and operators.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "support/surface_meshes.hpp"
+#include "temper/generate.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper::surfaces {
@@ -111,6 +113,30 @@ TEST(IntrinsicMesh, FlipsAreUndoneByFlips) {
   EXPECT_EQ(flipped, 40U);
 }
 
+TEST(IntrinsicMesh, ComesBackToOneDelaunayTriangulationFromAnyOther) {
+  Rng rng(5);
+  test::SurfaceArrays rough = test::icosphere(3);
+  for (Vec3& p : rough.points) p = rng.uniform(0.95, 1.05) * p;
+  for (const SurfaceMesh& surface :
+       {test::mesh_of(test::lifted(*random_mesh({.vertices = 300, .seed = 2}))), test::mesh_of(rough)}) {
+    IntrinsicMesh delaunay(surface);
+    ASSERT_EQ(flip_to_regular(delaunay).blocked, 0U);
+    IntrinsicMesh mesh = delaunay;
+    std::size_t flips = 0;
+    const auto n = static_cast<std::uint32_t>(mesh.connectivity().n_halfedges());
+    for (int i = 0; i < 3000; ++i) flips += mesh.flip(HalfedgeId(rng.below(n))) ? 1 : 0;
+    ASSERT_GT(flips, 1000U);
+    expect_valid(mesh);
+    ASSERT_EQ(flip_to_regular(mesh).blocked, 0U);
+    EXPECT_EQ(corners_of(mesh.connectivity()), corners_of(delaunay.connectivity()));
+    for (const HalfedgeId h : mesh.connectivity().halfedges()) {
+      const Mesh& c = delaunay.connectivity();
+      const HalfedgeId same = c.find_halfedge(mesh.connectivity().origin(h), mesh.connectivity().target(h));
+      EXPECT_NEAR(mesh.squared_length(h), delaunay.squared_length(same), 1e-9 * delaunay.squared_length(same));
+    }
+  }
+}
+
 TEST(IntrinsicMesh, RefusesFlipsThatLeaveNoTriangulation) {
   // A tetrahedron has all edges already; the corner of a square is not convex.
   const SurfaceMesh tetrahedron =
@@ -130,27 +156,32 @@ TEST(IntrinsicMesh, RefusesFlipsThatLeaveNoTriangulation) {
   EXPECT_FALSE(constrained.flip(inner(constrained)));
 }
 
+void expect_same_operators(const SurfaceMesh& surface) {
+  const DecComplex own = dec_operators(surface), same = dec_operators(IntrinsicMesh(surface));
+  ASSERT_EQ(same.d0.columns, own.d0.columns);
+  ASSERT_EQ(same.d1.columns, own.d1.columns);
+  ASSERT_EQ(same.d1.signs, own.d1.signs);
+  for (std::size_t i = 0; i < own.edges.size(); ++i) {
+    const EdgeId e(i);
+    EXPECT_NEAR(same.star1[e], own.star1[e], 1e-12 * std::max(1.0, std::abs(own.star1[e])));
+    EXPECT_NEAR(same.edges[e].crossing, own.edges[e].crossing, 1e-14);
+    EXPECT_NEAR(same.edges[e].left_height, own.edges[e].left_height, 1e-13);
+    EXPECT_NEAR(same.edges[e].right_height, own.edges[e].right_height, 1e-13);
+  }
+  for (const VertexId v : surface.vertices()) EXPECT_NEAR(same.star0[v], own.star0[v], 1e-13);
+}
+
 TEST(IntrinsicMesh, HasTheOperatorsOfItsMeshAndNoNegativeOneAfterFlips) {
   test::SurfaceArrays arrays = test::torus(24, 16);
   Rng rng(3);
   for (Vec3& p : arrays.points) p = rng.uniform(0.9, 1.1) * p;
   const SurfaceMesh torus = test::mesh_of(arrays);
   IntrinsicMesh mesh(torus);
-  const DecComplex own = dec_operators(torus), same = dec_operators(mesh);
-  ASSERT_EQ(same.d0.columns, own.d0.columns);
-  ASSERT_EQ(same.d1.columns, own.d1.columns);
-  ASSERT_EQ(same.d1.signs, own.d1.signs);
-  std::size_t negative = 0;
-  for (std::size_t i = 0; i < own.edges.size(); ++i) {
-    const EdgeId e(i);
-    negative += own.star1[e] < 0 ? 1 : 0;
-    EXPECT_NEAR(same.star1[e], own.star1[e], 1e-12 * std::max(1.0, std::abs(own.star1[e])));
-    EXPECT_NEAR(same.edges[e].crossing, own.edges[e].crossing, 1e-14);
-    EXPECT_NEAR(same.edges[e].left_height, own.edges[e].left_height, 1e-13);
-    EXPECT_NEAR(same.edges[e].right_height, own.edges[e].right_height, 1e-13);
-  }
-  EXPECT_GT(negative, 50U);
-  for (const VertexId v : torus.vertices()) EXPECT_NEAR(same.star0[v], own.star0[v], 1e-13);
+  expect_same_operators(torus);
+  expect_same_operators(test::mesh_of(test::folded(test::plane_strip(6, 1), 0.9)));  // with a boundary and weights
+  const auto is_negative = [](double ratio) { return ratio < 0; };
+  const DecComplex own = dec_operators(torus);
+  EXPECT_GT(std::count_if(own.star1.begin(), own.star1.end(), is_negative), 50);
 
   ASSERT_EQ(flip_to_regular(mesh).blocked, 0U);
   const DecComplex flipped = dec_operators(mesh);

@@ -264,7 +264,8 @@ TEST(SurfaceWeights, FewestViolatesFewConstraintsAndNoneWithoutNeed) {
 }
 
 TEST(IntrinsicWeights, BeforeFlipsAreThoseOfTheMesh) {
-  for (const SurfaceMesh& mesh : {rough_sphere(0.35, 3), rough_sphere(0.1, 3, 0.3), saddle(1, 0.3)}) {
+  for (const SurfaceMesh& mesh :
+       {rough_sphere(0.35, 3), rough_sphere(0.1, 3, 0.3), saddle(1, 0.3), pinwheel(-0.2, 0.5)}) {
     const IntrinsicMesh intrinsic(mesh);
     for (const Constraints constraints :
          {Constraints::well_centered, Constraints::heights_only, Constraints::regular, Constraints::coefficients}) {
@@ -289,8 +290,9 @@ TEST(IntrinsicWeights, BeforeFlipsAreThoseOfTheMesh) {
 
 TEST(IntrinsicWeights, NeedFlipsWhereTheMeshItselfHasNoWeights) {
   int cured = 0;
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    const SurfaceMesh mesh = rough_sphere(0.35, seed, 0.6);
+  std::size_t most_rounds = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const SurfaceMesh mesh = rough_sphere(0.35, seed, seed < 4 ? 0.6 : 0.4);
     WeightOptions options;
     options.goal = WeightGoal::fewest;
     const std::size_t own = n_bad_triangles(IntrinsicMesh(with(mesh, weights_of(mesh, options).weights)));
@@ -300,6 +302,12 @@ TEST(IntrinsicWeights, NeedFlipsWhereTheMeshItselfHasNoWeights) {
     EXPECT_EQ(found->bad_before, n_bad_triangles(IntrinsicMesh(mesh)));
     EXPECT_EQ(found->bad_after, n_bad_triangles(intrinsic));
     EXPECT_LE(found->bad_after, own);
+    IntrinsicMesh delaunay(mesh);
+    flip_to_regular(delaunay);
+    const auto once = find_weights(delaunay, *clp_solver(), options, interior_point_solver().get());
+    for (const VertexId v : mesh.vertices()) delaunay.set_weight(v, once->weights[v]);
+    EXPECT_LE(found->bad_after, n_bad_triangles(delaunay));
+    most_rounds = std::max(most_rounds, found->rounds);
     EXPECT_EQ(found->flips.flips > 0, own > 0);
     cured += own > 0 && found->bad_after == 0 ? 1 : 0;
     const bool proves = check_certificate(intrinsic, found->report.certificate) == CertificateCheck::proves;
@@ -307,6 +315,7 @@ TEST(IntrinsicWeights, NeedFlipsWhereTheMeshItselfHasNoWeights) {
     for (const VertexId v : mesh.vertices()) EXPECT_EQ(intrinsic.weight(v), found->report.weights[v]);
   }
   EXPECT_GE(cured, 1);
+  EXPECT_GE(most_rounds, 3U);  // flips for the weights that were found help again
 }
 
 TEST(SurfaceWeights, ATorusOfTrapezoidsHasTheBestMarginZero) {
