@@ -43,7 +43,7 @@ temper_install(temper_surfaces surfaces "temper's meshes of curved surfaces")
 # Static libraries: whoever links the installed ones needs their libraries too, which temperConfig.cmake finds.
 if(TARGET temper_io)
   target_link_libraries(temper_io PRIVATE $<INSTALL_INTERFACE:pugixml::pugixml>)
-  temper_install(temper_io io "temper's mesh files" REQUIRES temper-tets pugixml zlib LIBS ${CMAKE_DL_LIBS})
+  temper_install(temper_io io "temper's mesh files" REQUIRES temper-tets temper-surfaces pugixml zlib LIBS ${CMAKE_DL_LIBS})
 endif()
 if(TARGET temper_lp)
   target_link_libraries(temper_lp PRIVATE $<INSTALL_INTERFACE:Clp::Clp>)

@@ -46,9 +46,9 @@ LAYERS = {
     # A library of its own, with the rules of the core: meshes of tetrahedra, on tables, reports and linear programs.
     "tets": _BELOW + ["regularity", "feasibility", "quality", "explain", "dec", "transfer", "draw", "optimize", "report"],
     # The same for meshes of curved surfaces.
-    "surfaces": _BELOW + ["topology", "energy", "regularity", "feasibility", "quality", "dec"],
+    "surfaces": _BELOW + ["location", "topology", "energy", "regularity", "feasibility", "quality", "explain", "dec", "draw", "optimize", "report"],
     # A library of its own: sees the public headers of the core and of tets, and no other folder of src/.
-    "io": _BELOW + ["projection", "location", "size", "feasibility", "quality", "dec", "transfer", "mesher", "tets"],
+    "io": _BELOW + ["projection", "location", "size", "feasibility", "quality", "dec", "transfer", "mesher", "tets", "surfaces"],
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "mpi": ["base"],

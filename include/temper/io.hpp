@@ -25,6 +25,7 @@
 #include "temper/detail/projection.hpp"
 #include "temper/detail/size.hpp"
 #include "temper/mesh.hpp"
+#include "temper/surfaces.hpp"
 #include "temper/tets/mesh.hpp"
 
 namespace temper {
@@ -79,9 +80,10 @@ struct MappedPoints {
   std::shared_ptr<const GeographicMap> map;  ///< Map of the points, never null
   double z = 0;
 };
-/// Points in space, of a mesh of tetrahedra.
+/// Points in space, of a mesh of tetrahedra or of a curved surface.
 struct SpacePoints {
   std::vector<double> heights;  ///< Third coordinate of each point
+  int dimension = 3;            ///< Dimension of the mesh: 2 for a surface
 };
 using PointsIn = std::variant<PlanePoints, PeriodicPoints, SpherePoints, DegreePoints, MappedPoints, SpacePoints>;
 
@@ -134,8 +136,12 @@ struct MeshFile {
   std::vector<std::string> warnings;  ///< Warnings about what was dropped or repaired in reading
   std::shared_ptr<const tets::InputNames> numbering;  ///< Numbers and lines of the file, for errors
 
-  /// The dimension of the mesh: 3 if there are tetrahedra or points in space, else 2.
-  [[nodiscard]] int dimension() const { return tetrahedra.empty() && in_space() == nullptr ? 2 : 3; }
+  /// The dimension of the mesh: 3 if it is of tetrahedra, else 2.
+  [[nodiscard]] int dimension() const {
+    return in_space() != nullptr ? in_space()->dimension : tetrahedra.empty() ? 2 : 3;
+  }
+  /// Says whether the mesh is a curved surface.
+  [[nodiscard]] bool is_surface() const { return in_space() != nullptr && dimension() == 2; }
   /// The cells by their dimension, for std::get and std::apply.
   [[nodiscard]] auto cells() { return std::tie(marked_points, lines, triangles, tetrahedra); }
   [[nodiscard]] auto cells() const { return std::tie(marked_points, lines, triangles, tetrahedra); }
@@ -197,6 +203,7 @@ struct Format {
   bool holds_planes;          ///< Format can hold any mesh of the plane; else only meshes that were read in degrees
   bool holds_spheres;         ///< Format can hold meshes of the sphere
   bool holds_tetrahedra;      ///< Format can hold meshes of tetrahedra
+  bool holds_surfaces;        ///< Format can hold curved surfaces
 };
 [[nodiscard]] std::span<const Format> formats();
 /// A format for polygons of cells: see WriteOptions::cells. docs/reference/formats/cells.md lists their contents.
@@ -214,10 +221,10 @@ struct CellFormat {
 /// The version of GDAL, such as "3.6.2"; loaded in the same way.
 [[nodiscard]] std::string gdal_version();
 
-/// Reads any known format: a mesh of triangles or of tetrahedra, as MeshFile::dimension() tells. Weights come from the
-/// side file PATH.weights.csv if it exists. Several threads may call it at once. However, other code in the process
-/// (h5py) may share libnetcdf and libhdf5, and temper cannot lock it out. While temper reads or writes NetCDF or
-/// VTKHDF, no other thread may call these libraries.
+/// Reads any known format: a mesh of triangles, of tetrahedra or of a curved surface, as MeshFile tells. Weights come
+/// from the side file PATH.weights.csv if it exists. Several threads may call it at once. However, other code in the
+/// process (h5py) may share libnetcdf and libhdf5, and temper cannot lock it out. While temper reads or writes NetCDF
+/// or VTKHDF, no other thread may call these libraries.
 [[nodiscard]] Expected<MeshFile> read(const std::string& path, const ReadOptions& options = {});
 
 /// Returns the bed at each point as depths, positive down; nothing if the file has none. The bed is point data `depth`,
@@ -316,14 +323,16 @@ inline constexpr std::string_view kOntoSphere = "sphere";
 inline constexpr std::string_view kNoProjection = "none";
 /// Puts the points of a file in degrees on a map, in meters. parse_projection() reads the text; without a center, the
 /// middle of the points is the center. write() maps points back: an unmoved point gets its degrees again, bit for bit.
-/// kNoProjection takes the coordinates as a plane's. Errors: the errors of project() for outlines; a text that is no
-/// projection.
+/// kNoProjection takes the coordinates as a plane's. A surface that is nearly a sphere around the origin gets all
+/// points on the sphere with kOntoSphere, by default with their median radius. A warning has the largest change.
+/// Errors: the errors of project() for outlines; a text that is no projection.
 [[nodiscard]] Expected<void> project(MeshFile& file, std::string_view projection);
 
 /// Sets the points of a file from three coordinates. Beside tetrahedra they are in space. If z is constant to one part
 /// in a million of the extent, they are in a plane; a warning says so if z is not exactly constant. So they are if x or
 /// y is constant. If all have the same distance from the origin, to one part in a million, they are on a sphere. Points
-/// that no triangle of the file uses may be anywhere. An error names a point that is in neither.
+/// that no triangle of the file uses may be anywhere. All others are points of a curved surface. If it is nearly a
+/// sphere, a warning says so.
 [[nodiscard]] Expected<void> set_points(MeshFile& file, std::vector<Vec3> points);
 
 /// The mesh of a file, in a plane or on a sphere. A file in degrees needs project() first. Points of no triangle are
@@ -343,7 +352,8 @@ struct LoadedMesh {
 /// of the boundary are also fixed if tagged lines end or change their tag there.
 [[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {},
                                              Executor* executor = nullptr);
-/// The error of a file with tetrahedra, where triangles are expected. make_mesh() and project() return it, too.
+/// The error of a file with tetrahedra, or of a curved surface, where a mesh of the plane or the sphere is expected.
+/// make_mesh() returns it, too.
 [[nodiscard]] Expected<void> expect_triangles(const MeshFile& file);
 
 /// The mesh of a file with tetrahedra. Points of no tetrahedron are dropped, and a warning names them. Negative
@@ -355,6 +365,16 @@ struct LoadedTetMesh {
   std::vector<std::string> warnings;
 };
 [[nodiscard]] Expected<LoadedTetMesh> make_tet_mesh(const MeshFile& file, Executor* executor = nullptr);
+
+/// The mesh of a file with a curved surface. Points of no triangle are dropped, and a warning names them. Lines become
+/// constrained edges, unless they list the edges of the mesh. `fixed_tags`: as in make_mesh().
+struct LoadedSurface {
+  surfaces::SurfaceMesh mesh;
+  VertexOfPoint vertex_of_point;
+  std::vector<bool> edge_lines = {};  ///< As in LoadedMesh
+  std::vector<std::string> warnings;
+};
+[[nodiscard]] Expected<LoadedSurface> make_surface(const MeshFile& file, std::span<const std::string> fixed_tags = {});
 
 /// The treatment of floating point data when the mesh changes. (Integers, flags and tags of points stay with their
 /// points. Integers of cells are sampled.)
@@ -445,6 +465,11 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 DataReport update(MeshFile& file, const LoadedTetMesh& loaded, const tets::TetMesh& mesh,
                   const tets::Origins& origins = {}, const UpdateOptions& options = {});
 
+/// Puts a surface back into its file, by the same rules. `vertices`: as for triangles. Data are linear on the triangles
+/// of the file, and vertices get those of the closest points. There are no conserved data.
+DataReport update(MeshFile& file, const LoadedSurface& loaded, const surfaces::SurfaceMesh& mesh,
+                  const IdVector<VertexId, VertexId>& vertices = {}, const UpdateOptions& options = {});
+
 /// The weight of each corner of each triangle of the mesh, three each, from cell data `corner_weights` of the file;
 /// empty if it has none. Meshes with tensors of several planes have them (temper/detail/tensor.hpp).
 [[nodiscard]] std::vector<double> corner_weights_of(const MeshFile& file, const LoadedMesh& loaded);
@@ -464,6 +489,8 @@ void set_corner_weights(MeshFile& file, const std::vector<double>& weights);
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
 /// Frees points, weights and tetrahedra after make_tet_mesh(), unless points were dropped or corners have weights.
 void release_geometry(MeshFile& file, const LoadedTetMesh& loaded);
+/// Frees nothing: surfaces are small.
+inline void release_geometry(MeshFile& /*file*/, const LoadedSurface& /*loaded*/) {}
 
 /// An outline, as a file gives it.
 struct OutlineFile {

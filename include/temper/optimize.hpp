@@ -332,6 +332,14 @@ struct TetrahedraOptions {
   int most_error_vertices = 10'000;  ///< Largest number of vertices for a model of errors, >= 0
 };
 
+/// Options of curved surfaces alone (temper/surfaces.hpp).
+struct CurvedSurfaceOptions {
+  /// Largest distance between input and result, in parts of the diagonal of the bounding box, in [0, 1).
+  double distance = 0.005;
+  /// Creases are edges whose triangles turn by more than this angle [degrees], in (0, 180]. They stay.
+  double crease_angle = 70;
+};
+
 struct OptimizeOptions;
 
 /// The solvers of other libraries. temper::solvers() returns the solvers of this build (temper/solvers.hpp).
@@ -408,6 +416,7 @@ struct OptimizeOptions {
   double time_limit = 0;  ///< Time limit of the whole run [s]; 0: none
   PaperSwitches paper = {};
   TetrahedraOptions tets = {};
+  CurvedSurfaceOptions surfaces = {};
 };
 
 /// The objective that a run lowers. If the options have none, it is accuracy. It is `energy` alone if `energy` or

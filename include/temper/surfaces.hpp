@@ -12,21 +12,28 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "temper/dec.hpp"
 #include "temper/detail/criterion.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/ids.hpp"
+#include "temper/detail/location.hpp"
+#include "temper/detail/progress.hpp"
 #include "temper/detail/vec.hpp"
+#include "temper/draw.hpp"
+#include "temper/explain.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/mesh.hpp"
+#include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::surfaces {
@@ -123,6 +130,8 @@ class SurfaceMesh {
   [[nodiscard]] IdRange<TriangleId> triangles() const { return mesh_.triangles(); }
   [[nodiscard]] IdRange<HalfedgeId> halfedges() const { return mesh_.halfedges(); }
 
+  [[nodiscard]] std::array<VertexId, 3> corners(TriangleId t) const { return mesh_.corners(t); }
+  [[nodiscard]] std::int32_t region(TriangleId t) const { return mesh_.region(t); }
   [[nodiscard]] Vec3 position(VertexId v) const { return {mesh_.point(v).x, mesh_.point(v).y, z_[v]}; }
   [[nodiscard]] double weight(VertexId v) const { return mesh_.point(v).w; }
   [[nodiscard]] WeightedPoint point(VertexId v) const {
@@ -136,6 +145,9 @@ class SurfaceMesh {
   /// The caller keeps triangles from becoming flat.
   void set_position(VertexId v, Vec3 p) { mesh_.set_point(v, {p.x, p.y, weight(v)}), z_[v] = p.z; }
   void set_weight(VertexId v, double w) { mesh_.set_point(v, {mesh_.point(v).x, mesh_.point(v).y, w}); }
+
+  void set_fixed(VertexId v, bool fixed) { mesh_.set_fixed(v, fixed); }
+  void set_constrained(HalfedgeId h, bool constrained) { mesh_.set_constrained(h, constrained); }
 
   /// Checks that no triangle is flat (exact), and that twins, stars and flags fit. Returns the first fault, or nothing.
   [[nodiscard]] std::optional<std::string> validate() const;
@@ -160,11 +172,20 @@ struct BuiltSurface {
 
 // --- quality --------------------------------------------------------------------------------------------------------
 
-/// Measures a mesh by the rows of quality_measures(). No triangle of a surface is inverted. Energies and SolverMeasures
-/// are not measured: they keep the values that they have without a mesh. Places of the report are x and y. O(n).
+/// The report on a surface. No triangle of a surface is inverted. Energies and SolverMeasures are not measured: they
+/// keep the values that they have without a mesh. Places of the report are x and y.
+struct Quality : temper::Quality {};
+[[nodiscard]] const ReportTable& table_of(const Quality*);
+/// The rows of temper::quality_measures() that are measured on surfaces.
+[[nodiscard]] std::span<const QualityMeasure> quality_measures();
+
+/// Measures a mesh. O(n).
 [[nodiscard]] Quality quality(const SurfaceMesh& mesh, std::size_t worst = 5);
-/// Quality of one triangle.
-[[nodiscard]] TriangleQuality triangle_quality(const SurfaceMesh& mesh, TriangleId t);
+/// Quality of one triangle. Precondition: it is not flat.
+[[nodiscard]] TriangleQuality triangle_quality(const std::array<WeightedPoint, 3>& corners);
+[[nodiscard]] inline TriangleQuality triangle_quality(const SurfaceMesh& mesh, TriangleId t) {
+  return triangle_quality(mesh.points(t));
+}
 /// As those of the plane (temper/detail/criterion.hpp). O(n).
 [[nodiscard]] std::vector<ViolatedEdge> violated_edges(const SurfaceMesh& mesh, Criterion criterion);
 [[nodiscard]] std::vector<TriangleId> cells_at_violations(const SurfaceMesh& mesh, Criterion criterion);
@@ -193,12 +214,53 @@ struct BuiltSurface {
 /// S and T have square roots. The checker adds the largest effect of their rounding.
 [[nodiscard]] CertificateCheck check_certificate(const SurfaceMesh& mesh, const Certificate& certificate);
 
+// --- explanations and pictures --------------------------------------------------------------------------------------
+
+/// Why triangles are bad, and what weights alone can do.
+struct Explanation {
+  std::size_t triangles = 0, bad = 0;
+  Feasibility verdict = Feasibility::undecided;  ///< Weights for the whole mesh, with its positions and triangles
+  std::size_t changed = 0;                       ///< Number of weights that change, if the verdict is feasible
+  double margin = 0;                             ///< Best margin, or a bound of it, as in WeightReport
+  Certificate certificate;                       ///< Proof that there are no weights; or no terms
+  std::vector<WorstTriangle> worst;              ///< The worst triangles with their reasons, bad ones alone
+};
+[[nodiscard]] const ReportTable& table_of(const Explanation*);
+/// Explains at most `most` bad triangles. `whole`: as in WeightOptions.
+[[nodiscard]] Expected<Explanation> explain(const SurfaceMesh& mesh, LpSolver& solver, std::size_t most,
+                                            std::size_t whole = WeightOptions().whole);
+/// As temper::explain_duals.
+[[nodiscard]] DualExplanation explain_duals(const SurfaceMesh& mesh, Criterion criterion, std::size_t most);
+
+/// Draws the triangles that are in view, from the direction `view` of the options, by default from −60°, 30°. Each is
+/// colored by its margin, and bad ones are hatched. A triangle is in view if no other one hides its centroid. Only the
+/// options `primal`, `fill`, `view`, `zoom`, `width` and `title` apply. O(n log n) for usual surfaces.
+[[nodiscard]] std::string draw_svg(const SurfaceMesh& mesh, const DrawOptions& options = {});
+/// Draws two surfaces next to each other.
+[[nodiscard]] std::string draw_before_after_svg(const SurfaceMesh& before, const SurfaceMesh& after,
+                                                const DrawOptions& options = {});
+
 // --- operators ------------------------------------------------------------------------------------------------------
 
 /// Computes the operators of a surface (temper/dec.hpp). `sphere_orthocenters` and `sphere_midpoints` have the centers
 /// in space: each orthocenter in the plane of its triangle, and the weighted midpoints of edges. Areas and dual areas
 /// are those of the plane triangles. Precondition: fewer than 2³¹ edges. O(n).
 [[nodiscard]] DecComplex dec_operators(const SurfaceMesh& mesh);
+/// As those of triangles (temper/dec.hpp).
+[[nodiscard]] inline Expected<DecComplex> with_coefficient(const SurfaceMesh& mesh, DecComplex complex,
+                                                           std::span<const double> coefficient,
+                                                           const InputNames* names = nullptr) {
+  return temper::with_coefficient(mesh.connectivity(), std::move(complex), coefficient, names);
+}
+[[nodiscard]] DecSummary summarize(const SurfaceMesh& mesh, const DecComplex& complex);
+/// The dual cells of the vertices. A cell has a quadrilateral in each of its triangles, from the vertex over midpoints
+/// of edges to the orthocenter, in `sphere_corners`. Areas are signed, and those of cells are ★0. There are no faces.
+[[nodiscard]] PowerCells dual_cells(const SurfaceMesh& mesh, const DecComplex& complex);
+
+// --- places ---------------------------------------------------------------------------------------------------------
+
+/// The place of the surface that is closest to each point. O(log n) for a point near the surface.
+[[nodiscard]] std::vector<Place> closest_places(const SurfaceMesh& mesh, std::span<const Vec3> points);
 
 // --- intrinsic triangulations -----------------------------------------------------------------------------------
 
@@ -276,26 +338,35 @@ struct SurfaceOptions {
   /// Creases are edges whose triangles turn by more than this angle [degrees]. They and their vertices stay; new
   /// vertices may split them. A thin triangle that two such edges fold out of the surface has none.
   double crease_angle_deg = 70;
-  bool may_flip = true;                  ///< Allow flips of edges in space
-  bool may_insert = true;                ///< Allow edges to be split and collapsed next to bad triangles
+  bool may_flip = true;    ///< Allow flips of edges in space
+  bool may_insert = true;  ///< Allow edges to be split and collapsed next to bad triangles
+  bool may_move = true;    ///< Allow vertices to move. Else only weights change
+  /// So many edits tried next to bad triangles, one after the other without a gain, end the repairs. Of 20 trials less
+  /// than one helps.
+  int repair_trials = 600;
+  double time_limit = 0;                 ///< Time limit of the run [s]; 0: none
   std::function<bool()> must_stop = {};  ///< If it says yes, the run ends with the best mesh so far
+  Observer observer = {};                ///< Observer of the progress after each round, which may stop the run
+  /// Start of the time limit, as in temper::OptimizeHooks. Absent: the time of the call.
+  std::optional<std::chrono::steady_clock::time_point> started = {};
 };
+/// The options of a surface among those of all meshes. Errors: options that are out of range, or contradict each other.
+[[nodiscard]] Expected<SurfaceOptions> surface_options(const OptimizeOptions& options);
 
-struct SurfaceReport {
+/// The objective is the energy at the least γ. A sweep is a round that moves all vertices.
+struct SurfaceReport : RunReport {
   Quality before, after;
   std::size_t violations_before = 0, violations_after = 0;  ///< Numbers of violations of the criterion
   /// Largest distance between input and result, at vertices, centers of triangles and midpoints of edges. It is
   /// measured both ways [length].
   double surface_distance = 0;
   double diagonal = 0;      ///< Diagonal of the bounding box of the input [length]
-  std::size_t rounds = 0;   ///< Number of rounds that moved all vertices
-  std::size_t flips = 0;    ///< Number of flips in these rounds
   std::size_t repairs = 0;  ///< Number of edits next to bad triangles
   std::size_t crease_edges = 0;
-  bool stopped = false;  ///< must_stop ended the run
   /// Number in the input of each vertex, invalid for inserted ones. Empty: the numbers are the same.
   IdVector<VertexId, VertexId> vertices;
 };
+[[nodiscard]] const ReportTable& table_of(const SurfaceReport*);
 
 /// Improves a mesh in place until it meets the criterion. Vertices move in their tangent planes and come back to the
 /// input surface. Edges flip in space, and weights follow by linear programs. Vertices on the boundary, on constrained

@@ -15,6 +15,7 @@
 #include "dec/accurate.hpp"
 #include "dec/builder.hpp"
 #include "dec/coefficient.hpp"
+#include "dec/summary.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "temper/detail/geometry.hpp"
@@ -199,7 +200,7 @@ void find_extremes(DecSummary& s, const DecComplex& complex) {
 
 }  // namespace
 
-DecSummary summarize(const Mesh& mesh, const DecComplex& complex) {
+DecSummary summary_of_operators(const Mesh& mesh, const DecComplex& complex) {
   DecSummary s;
   s.vertices = complex.star0.size();
   s.edges = complex.edges.size();
@@ -208,6 +209,11 @@ DecSummary summarize(const Mesh& mesh, const DecComplex& complex) {
   find_extremes(s, complex);
   for (const double a : complex.areas) s.area += a;
   for (const double a : complex.star0) s.star0_sum += a;
+  return s;
+}
+
+DecSummary summarize(const Mesh& mesh, const DecComplex& complex) {
+  DecSummary s = summary_of_operators(mesh, complex);
   for (const TriangleId t : mesh.triangles()) {
     s.not_well_centered += is_bad(mesh, t);
   }

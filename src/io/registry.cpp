@@ -31,10 +31,10 @@ using Files = std::vector<std::string>(const std::string& path);
 
 Sniff sniff_vtu, sniff_gmsh22, sniff_gmsh41, sniff_medit, sniff_triangle, sniff_obj, sniff_legacy_vtk, sniff_vtk51,
     sniff_jigsaw, sniff_off, sniff_ply, sniff_adcirc, sniff_vtkhdf, sniff_mpas, sniff_ugrid, sniff_mfem, sniff_fesom,
-    sniff_2dm, sniff_esri_ascii, sniff_geotiff, sniff_mike, sniff_avs, sniff_selafin;
+    sniff_2dm, sniff_esri_ascii, sniff_geotiff, sniff_mike, sniff_avs, sniff_selafin, sniff_stl;
 Read read_vtu, read_gmsh, read_medit, read_triangle, read_obj, read_legacy_vtk, read_jigsaw_mesh, read_off, read_ply,
     read_adcirc, read_vtkhdf, read_mpas, read_mfem, read_fesom, read_2dm, read_esri_ascii, read_geotiff, read_mike,
-    read_avs, read_selafin;
+    read_avs, read_selafin, read_stl;
 Write write_vtu, write_gmsh22, write_gmsh41, write_medit, write_triangle, write_obj, write_legacy_vtk, write_vtk51,
     write_jigsaw_mesh, write_off, write_ply, write_adcirc, write_vtkhdf, write_mpas, write_ugrid, write_fesom,
     write_2dm, write_mike, write_selafin;
@@ -73,6 +73,8 @@ constexpr FormatRow kRows[] = {
     {"2dm", "2DM of SMS", ".2dm", kZ | kRegions | kLines | kNames | kQuadrilaterals,
      sniff_2dm, read_2dm, write_2dm,
      {.name_ends = "\"", .bed = Bed::z, .has_heights = true}},
+    {"stl", "STL", ".stl", 0,
+     sniff_stl, read_stl},
     {"obj", "Wavefront OBJ", ".obj", kInSpace | kAllTags | kNames,
      sniff_obj, read_obj, write_obj},
     {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll | kSphere | kQuadrilaterals | kTetrahedra,
@@ -116,7 +118,7 @@ template <std::size_t... I>
 constexpr std::array<Format, sizeof...(I)> columns(std::index_sequence<I...>) {
   return {Format{kRows[I].name, kRows[I].description, kRows[I].suffixes, kRows[I].write != nullptr,
                  (kRows[I].holds & kWeights) != 0, kRows[I].details.degrees != Degrees::always,
-                 (kRows[I].holds & kSphere) != 0, (kRows[I].holds & kTetrahedra) != 0}...};
+                 (kRows[I].holds & kSphere) != 0, (kRows[I].holds & kTetrahedra) != 0, kRows[I].is_in_space()}...};
 }
 // Not constexpr: GCC with sanitizers does not take the address of a function for a constant.
 const auto kFormats = columns(std::make_index_sequence<std::size(kRows)>());
@@ -131,7 +133,8 @@ const FormatRow* row_of(std::string_view head) {
 /// `bytes`: of the whole file.
 const FormatRow& recognize(const std::string& path, std::string_view beginning, std::uint64_t bytes) {
   if (const FormatRow* const row = row_of(beginning.substr(0, kSniffBytes))) return *row;
-  if (const std::string known = recognize_unsupported(beginning, bytes); !known.empty())
+  if (is_binary_stl(beginning, bytes)) return *find_row("stl");
+  if (const std::string known = recognize_unsupported(beginning); !known.empty())
     fail(ErrorCode::unsupported, path, "is ", known);
   std::string names;
   for (const Format& format : kFormats) names += text(names.empty() ? "" : ", ", format.description);
@@ -226,7 +229,8 @@ void check_sizes(const std::string& path, const MeshFile& f) {
   const auto in_range = [n](std::int32_t p) { return p >= 0 && static_cast<std::size_t>(p) < n; };
   insist(f.sphere() == nullptr || f.sphere()->places.size() == n,
          "another number of places on the sphere than of points");
-  insist((f.dimension() == 3) == (f.in_space() != nullptr), "tetrahedra without points in space, or such points alone");
+  insist(f.tetrahedra.empty() != (f.in_space() != nullptr && f.dimension() == 3),
+         "tetrahedra without points in space, or such points alone");
   insist(f.in_space() == nullptr || f.in_space()->heights.size() == n, "another number of heights than of points");
   insist(f.weights.empty() || f.weights.size() == n, "another number of weights than of points");
   check_data(f.point_data, n, "point data");
@@ -266,9 +270,9 @@ const FormatTraits& traits_of(const MeshFile& file) { return details_of(file).tr
 Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
   return guarded<MeshFile>(path, [&] {
     Document document = read_document(path, options);
-    check(document, options);
     MeshFile& file = document.file;
     file.path = path;
+    check(document, options);
     file.numbering = document.names;
     read_side_file(document);
     read_corner_file(document);
@@ -310,6 +314,14 @@ void expect_place(const FormatRow& row, const std::string& path, const MeshFile&
     if ((row.holds & kTetrahedra) != 0) return;
     fail(ErrorCode::unsupported, path, row.description, " is not written with tetrahedra; expected one of ",
          names_with(kTetrahedra));
+  }
+  if (file.is_surface() && !row.is_in_space()) {
+    std::vector<std::string_view> names;
+    for (const FormatRow& each : kRows) {
+      if (each.write != nullptr && each.is_in_space()) names.push_back(each.name);
+    }
+    fail(ErrorCode::unsupported, path, row.description, " is not written with a curved surface; expected one of ",
+         join(names));
   }
   if (file.sphere() != nullptr && (row.holds & kSphere) == 0) {
     fail(ErrorCode::unsupported, path, "points are on a sphere, which ", row.description,

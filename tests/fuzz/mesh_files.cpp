@@ -2,6 +2,7 @@
 // what a mesh was read from can be written in every format, and read again.
 #include "target.hpp"
 #include "temper/generate.hpp"
+#include "temper/surfaces.hpp"
 #include "unit/io/support.hpp"
 
 namespace temper::fuzz {
@@ -86,6 +87,18 @@ void run_tetrahedra(const Scratch& scratch, const io::MeshFile& file, std::strin
   insist(again->tetrahedra.corners == file.tetrahedra.corners, "the tetrahedra are read that were written");
 }
 
+void run_surface(const Scratch& scratch, const io::MeshFile& file, std::string_view bytes) {
+  const auto made = io::make_surface(file);
+  if (!made) return insist_on_message(made.error());
+  const auto wrong = made->mesh.validate();
+  insist(!wrong, wrong.value_or(""));
+  const surfaces::Quality quality = surfaces::quality(made->mesh);
+  const std::size_t bad = surfaces::cells_at_violations(made->mesh, Criterion::well_centered).size();
+  insist(violations(quality, Criterion::well_centered) == bad, "reports count the bad triangles");
+  const io::Format& format = chosen_format(bytes);
+  if (format.holds_surfaces) write_and_read_again(scratch, file, format);
+}
+
 void run(const std::string& format, std::string_view bytes) {
   static const Scratch scratch;
   scratch.clear();
@@ -93,6 +106,7 @@ void run(const std::string& format, std::string_view bytes) {
   const auto file = io::read(place(scratch, format, bytes));
   if (!file) return insist_on_message(file.error());
   if (file->dimension() == 3) return run_tetrahedra(scratch, *file, bytes);
+  if (file->is_surface()) return run_surface(scratch, *file, bytes);
   insist(printable(file->warnings.empty() ? "" : file->warnings[0]).size() < 100000, "warnings are short");
   const auto made = io::make_mesh(*file);
   if (!made) return insist_on_message(made.error());
@@ -102,6 +116,14 @@ void run(const std::string& format, std::string_view bytes) {
 }
 
 std::vector<std::string> seeds(const io::Format& format) {
+  if (format.name == "stl") {
+    return {
+        "solid s\nfacet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 0\n endloop\n endfacet\n"
+        "facet normal 1 0 0\n outer loop\n vertex 0 1 0\n vertex 1 0 0\n vertex 1 1 1\n endloop\n endfacet\n"
+        "endsolid s\n",
+        std::string(80, 's') + std::string("\1\0\0\0", 4) + std::string(24, '\0') +
+            std::string("\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\x80\x3f\0\0", 26)};
+  }
   if (!format.writes) {
     return {
         "MFEM mesh v1.0\n\n# c\ndimension\n2\n\nelements\n2\n1 2 0 1 2\n1 2 0 2 3\n\nboundary\n1\n3 1 0 1\n\n"
@@ -122,6 +144,12 @@ std::vector<std::string> seeds(const io::Format& format) {
   };
   for (const auto& file : {io::tamed(io::sample()), io::tamed(io::rich_sample()), globe}) add(file);
   if (format.holds_tetrahedra) add(io::tet_sample());
+  if (format.holds_surfaces) {
+    io::MeshFile surface = io::from_mesh(*icosahedral({.level = 1}));
+    std::vector<Vec3> points = surface.sphere()->places;
+    for (Vec3& p : points) p.z *= 1.5;
+    if (io::set_points(surface, std::move(points))) add(surface);
+  }
   return all;
 }
 

@@ -128,6 +128,11 @@ enum class DecKind { triangles, columns, tetrahedra };
                                                            const tets::DecComplex& complex,
                                                            const DecWriteOptions& options = {});
 
+/// Writes the operators of a curved surface in the same way, with its dual cells. Error: formats that need columns.
+[[nodiscard]] Expected<std::vector<std::string>> write_dec(const std::string& folder, const surfaces::SurfaceMesh& mesh,
+                                                           const DecComplex& complex,
+                                                           const DecWriteOptions& options = {});
+
 /// Reads layers: a CSV file with a title line and a row for each vertex, by its number in the file of the mesh.
 ///
 ///     vertex,top,bottom 1,bottom 2,active 1,active 2        lines that begin with # are comments

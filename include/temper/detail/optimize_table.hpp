@@ -49,7 +49,7 @@ struct OptionRow {
   CellKinds cells = CellKinds::triangles;          ///< Cells of the meshes that the option is for
   std::span<const std::string_view> choices = {};  ///< Names of the choices, for OptionKind::choice
   /// Choices for one kind of cells, such as "F|BP"; empty: all.
-  std::string_view for_triangles = {}, for_tetrahedra = {};
+  std::string_view for_triangles = {}, for_tetrahedra = {}, for_surfaces = {};
   OptionRange range = {};                 ///< Range of counts, numbers and length_parameters
   bool optional = false;                  ///< Option may be absent
   bool common = false;                    ///< Option has a flag of its own in the program

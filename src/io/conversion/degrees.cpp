@@ -124,9 +124,14 @@ std::optional<Expected<double>> radius_of_sphere(std::string_view words) {
 }  // namespace
 
 Expected<void> project(MeshFile& file, std::string_view projection) {
-  if (auto right = expect_triangles(file); !right) return right;
   const auto radius = radius_of_sphere(projection);
   if (radius && !*radius) return radius->error();
+  if (file.is_surface() && radius) {
+    const InputNames from_0;
+    const auto to = projection == kOntoSphere ? std::nullopt : std::optional(**radius);
+    return guarded<void>(file.path, [&] { take_to_sphere(file, to, file.numbering ? *file.numbering : from_0); });
+  }
+  if (auto right = expect_triangles(file); !right) return right;
   if (file.sphere() != nullptr) {
     if (radius) {
       resize_sphere(file, **radius);

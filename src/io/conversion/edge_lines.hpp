@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "temper/io.hpp"
@@ -23,6 +24,16 @@ struct EdgeLines {
 /// edge of each line, invalid if it has none. O(n).
 [[nodiscard]] std::optional<EdgeLines> find_edge_lines(const MeshFile& file, const VertexOfPoint& vertex_of_point,
                                                        const Mesh& mesh, const std::vector<HalfedgeId>& edges);
+
+/// The lines of a file in its mesh.
+struct LinesOfMesh {
+  std::vector<HalfedgeId> edges;        ///< The edge of each line, invalid if it has none
+  std::vector<bool> edge_lines;         ///< As LoadedMesh::edge_lines
+  std::vector<HalfedgeId> constrained;  ///< Edges inside the mesh that must stay
+  std::vector<std::string> warnings;    ///< About lines that constrain nothing
+};
+[[nodiscard]] LinesOfMesh lines_of_mesh(const MeshFile& file, const VertexOfPoint& vertex, const InputNames& names,
+                                        const Mesh& mesh);
 
 /// Puts the edges that flips have made into the place of the edges that are gone. The vertices of the lines stay, and
 /// edge_lines stays right. O(n log n).

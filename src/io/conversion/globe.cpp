@@ -123,9 +123,10 @@ std::string two_digits(double value) {
   return digits;
 }
 
+constexpr double kNearly = 0.01;  // of the extent or radius: then a sphere may be meant, not a surface
+
 [[noreturn]] void fail_in_space(const std::vector<Vec3>& points, const std::vector<bool>& used, const PlaneFit& plane,
                                 const InputNames& names) {
-  constexpr double kNearly = 0.01;  // of the extent: then a sphere is meant, not a surface or a plane far away
   const std::vector<Vec3> all = kept(points, used);
   const double radius = median_distance(all);
   const SphereFit sphere = most_off(all, radius);
@@ -152,6 +153,51 @@ std::string two_digits(double value) {
        names.point(plane.first), " has z = ", z,
        "; expected a mesh in a plane of constant x, y or z, or on a sphere around the origin. Next: --flat takes z as "
        "data of a mesh of the plane (flat=True in Python)");
+}
+
+/// The sphere that points are nearly on.
+struct NearSphere {
+  double radius = 0;
+  SphereFit fit;
+};
+std::optional<NearSphere> near_sphere(const std::vector<Vec3>& points) {
+  NearSphere sphere = {median_distance(points), {}};
+  sphere.fit = most_off(points, sphere.radius);
+  return sphere.radius > 0 && sphere.fit.off <= kNearly * sphere.radius ? std::optional(sphere) : std::nullopt;
+}
+
+/// Says whether all triangles have one orientation when seen along z: the surface may be a bed.
+bool is_graph(const MeshFile& file, const std::vector<Vec3>& points) {
+  const auto side = [&](const std::array<std::int32_t, 3>& triangle) {
+    const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(triangle[k])]; };
+    return cross(at(1) - at(0), at(2) - at(0)).z;
+  };
+  const auto is_up = [&](const auto& triangle) { return side(triangle) > 0; };
+  const auto is_down = [&](const auto& triangle) { return side(triangle) < 0; };
+  return std::ranges::all_of(file.triangles, is_up) || std::ranges::all_of(file.triangles, is_down);
+}
+
+/// Takes the points for a curved surface. If they are nearly on a sphere, or most are, a sphere may be meant.
+void set_surface(MeshFile& file, const std::vector<Vec3>& points, const std::vector<Vec3>& used) {
+  const auto warn = [&](const auto&... words) {
+    file.warnings.push_back(text(file.path, file.path.empty() ? "" : ": ", words...));
+  };
+  const double radius = median_distance(used);
+  const SphereFit fit = most_off(used, radius);
+  if (near_sphere(used)) {
+    warn("all points are on a sphere around the origin to ", two_digits(fit.off / radius), " of its radius, and ", kOff,
+         " is allowed, so they are a curved surface. Next: --projection sphere moves them to the sphere "
+         "(projection=\"sphere\" in Python)");
+  } else if (2 * fit.n_off < used.size()) {
+    warn("most points are ", radius, " from the origin, but ", fit.n_off, fit.n_off == 1 ? " is" : " are",
+         " not: they are a curved surface");
+  } else if (is_graph(file, points)) {
+    warn(
+        "z differs, so the mesh is a curved surface. Next: if z is a height or a depth, --flat takes the mesh as one "
+        "of "
+        "the plane (flat=True in Python)");
+  }
+  put_in_space(file, points, 2);
 }
 
 /// Puts points into the plane of their first two coordinates.
@@ -189,14 +235,42 @@ void put_on_sphere(MeshFile& file, double radius, const InputNames& names) {
   file.points_in = SpherePoints{radius, std::move(places)};
 }
 
-void put_in_space(MeshFile& file, std::span<const Vec3> points) {
+void put_in_space(MeshFile& file, std::span<const Vec3> points, int dimension) {
   file.points.clear();
   std::vector<double> heights;
   for (const Vec3& p : points) {
     file.points.push_back({p.x, p.y});
     heights.push_back(p.z);
   }
-  file.points_in = SpacePoints{std::move(heights)};
+  file.points_in = SpacePoints{std::move(heights), dimension};
+}
+
+void take_to_sphere(MeshFile& file, std::optional<double> radius, const InputNames& names) {
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < file.points.size(); ++i) points.push_back(position_of(file, i));
+  const std::vector<bool> used = corners_among(points.size(), file.triangles);
+  const std::vector<Vec3> all = kept(points, used);
+  const auto sphere = near_sphere(all);
+  if (!sphere) {
+    const double median = median_distance(all);
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto off = [&](std::size_t p) { return used[p] ? std::abs(length(points[p]) - median) : -1; };
+      if (off(i) > off(worst)) worst = i;
+    }
+    fail(ErrorCode::not_planar, names.point_where(worst), names.point(worst), " is ", length(points[worst]),
+         " from the origin, but the median of all is ", median, "; expected all within ", kNearly,
+         " of a sphere around the origin. Next: leave out the projection, for a curved surface");
+  }
+  const double to = radius.value_or(sphere->radius);
+  for (Vec3& p : points) {
+    const double distance = length(p);
+    p = distance > 0 ? (to / distance) * p : Vec3{0, 0, to};  // only a point of no triangle is at the center
+  }
+  for (double& w : file.weights) w *= (to / sphere->radius) * (to / sphere->radius);
+  file.warnings.push_back(text(file.path.empty() ? "" : file.path + ": ", "points are moved to the sphere of radius ",
+                               to, ", by ", two_digits(sphere->fit.off / sphere->radius), " of the radius at most"));
+  set_sphere(file, to, std::move(points));
 }
 
 void resize_sphere(MeshFile& file, double radius) {
@@ -214,7 +288,7 @@ void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points) {
   file.points_in = SpherePoints{radius, std::move(points)};
 }
 
-void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names) {
+void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names, bool may_be_surface) {
   expect_finite(points, names);
   const std::vector<bool> used =
       file.triangles.empty() ? std::vector<bool>(points.size(), true) : corners_among(points.size(), file.triangles);
@@ -239,7 +313,20 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
     file.points_in = PlanePoints{.normal = normal};
     return set_plane(file, standing, vertical, names);
   }
-  fail_in_space(points, used, plane, names);
+  if (!may_stand || !may_be_surface) fail_in_space(points, used, plane, names);
+  set_surface(file, points, all);
+}
+
+Expected<void> expect_no_surface(const MeshFile& file) {
+  if (!file.is_surface()) return {};
+  const InputNames from_0;
+  const InputNames& names = file.numbering ? *file.numbering : from_0;
+  return guarded<void>(file.path, [&] {
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < file.points.size(); ++i) points.push_back(position_of(file, i));
+    const std::vector<bool> used = corners_among(points.size(), file.triangles);
+    fail_in_space(points, used, fit_plane(points, used), names);
+  });
 }
 
 Expected<void> set_points(MeshFile& file, std::vector<Vec3> points) {

@@ -23,15 +23,21 @@ inline constexpr double kOff = 1e-6;
 
 /// Puts points in degrees onto the sphere. Fails if a latitude or a longitude is out of range.
 void put_on_sphere(MeshFile& file, double radius, const InputNames& names);
-/// Gives a mesh of tetrahedra its points.
-void put_in_space(MeshFile& file, std::span<const Vec3> points);
+/// Gives a mesh of tetrahedra, or a curved surface, its points.
+void put_in_space(MeshFile& file, std::span<const Vec3> points, int dimension = 3);
+/// Moves the points of a surface that is nearly a sphere to the sphere, with a warning. Fails if it is not.
+void take_to_sphere(MeshFile& file, std::optional<double> radius, const InputNames& names);
 /// Changes the radius of the sphere, with weights that keep the power diagram.
 void resize_sphere(MeshFile& file, double radius);
 /// Turns points in space into points on the sphere.
 void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points);
 
+/// The error of a surface, where a mesh of the plane or the sphere is expected: it names a point.
+[[nodiscard]] Expected<void> expect_no_surface(const MeshFile& file);
+
 /// Gives a file points with three coordinates, as set_points() does, with these names in errors.
-void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names);
+/// `may_be_surface`: otherwise points in no plane and on no sphere are an error.
+void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names, bool may_be_surface = true);
 
 /// The radius of all points, to one part in a million; nothing if they have none in common.
 [[nodiscard]] std::optional<double> common_radius(const std::vector<Vec3>& points);

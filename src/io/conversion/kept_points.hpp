@@ -84,4 +84,11 @@ class KeptNames : public Names {
   std::vector<std::size_t> points_;  // empty: all
 };
 
+class KeptTriangleNames final : public KeptNames<InputNames> {
+ public:
+  using KeptNames::KeptNames;
+  [[nodiscard]] std::string triangle(std::size_t i) const override { return all().triangle(i); }
+  [[nodiscard]] std::string triangle_where(std::size_t i) const override { return all().triangle_where(i); }
+};
+
 }  // namespace temper::io

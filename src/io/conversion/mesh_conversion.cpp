@@ -74,13 +74,6 @@ InputError with_known_cause(InputError error, const MeshFile& file) {
   return error;
 }
 
-class KeptTriangleNames final : public KeptNames<InputNames> {
- public:
-  using KeptNames::KeptNames;
-  [[nodiscard]] std::string triangle(std::size_t i) const override { return all().triangle(i); }
-  [[nodiscard]] std::string triangle_where(std::size_t i) const override { return all().triangle_where(i); }
-};
-
 class MeshMaker {
  public:
   MeshMaker(const MeshFile& file, Executor* executor) : file_(file), executor_(executor) {}
@@ -97,9 +90,11 @@ class MeshMaker {
     const std::size_t reversed = loaded_.reversed_triangles;
     if (reversed > 0)
       warn(text(reversed, reversed == 1 ? " clockwise triangle is reversed" : " clockwise triangles are reversed"));
-    find_edges();
-    take_edge_lines();
-    constrain_lines();
+    LinesOfMesh lines = lines_of_mesh(file_, loaded_.vertex_of_point, names(), loaded_.mesh);
+    edges_ = std::move(lines.edges);
+    loaded_.edge_lines = std::move(lines.edge_lines);
+    for (const HalfedgeId h : lines.constrained) loaded_.mesh.set_constrained(h, true);
+    for (std::string& warning : lines.warnings) warn(std::move(warning));
     keep_quadrilaterals();
     keep_flagged_faces();
     fix_ends_of_tags(file_, edges_, loaded_.mesh);
@@ -142,64 +137,6 @@ class MeshMaker {
     input.weights = weights;
     input.triangles = triangles;
     return Mesh::build(input);
-  }
-  // Finds the edges of all lines together. At a vertex with very many lines, one search per line would take the square
-  // of their number.
-  void find_edges() {
-    const auto& vertex = loaded_.vertex_of_point;
-    using Ends = std::pair<std::int32_t, std::int32_t>;
-    std::vector<std::pair<Ends, std::size_t>> wanted;
-    for (std::size_t i = 0; i < file_.lines.size(); ++i) {
-      const auto [a, b] = file_.lines[i];
-      wanted.emplace_back(std::minmax({vertex[static_cast<std::size_t>(a)], vertex[static_cast<std::size_t>(b)]}), i);
-    }
-    std::sort(wanted.begin(), wanted.end());
-    edges_.assign(file_.lines.size(), HalfedgeId());
-    if (wanted.empty()) return;
-    const Mesh& mesh = loaded_.mesh;
-    for (const HalfedgeId h : mesh.halfedges()) {
-      if (!mesh.is_edge_representative(h)) continue;
-      const auto from = static_cast<std::int32_t>(mesh.origin(h).index),
-                 to = static_cast<std::int32_t>(mesh.target(h).index);
-      const Ends ends = std::minmax({from, to});
-      auto line = std::lower_bound(wanted.begin(), wanted.end(), std::pair(ends, std::size_t{0}));
-      for (; line != wanted.end() && line->first == ends; ++line) edges_[line->second] = h;
-    }
-  }
-  void take_edge_lines() {
-    std::optional<EdgeLines> found = find_edge_lines(file_, loaded_.vertex_of_point, loaded_.mesh, edges_);
-    if (!found) return;
-    loaded_.edge_lines = std::move(found->lines);
-    warn(text("all ", found->n_inner_edges, " inner edges are lines of tag ", found->tag,
-              ": they are taken for the edges of the mesh, not for features, and constrain nothing"));
-  }
-  void constrain_lines() {
-    std::vector<std::string> lost, dropped;
-    std::size_t n_lost = 0, n_dropped = 0;
-    const auto& vertex = loaded_.vertex_of_point;
-    const bool are_features = loaded_.edge_lines.empty();
-    for (std::size_t i = 0; i < file_.lines.size(); ++i) {
-      const auto [a, b] = file_.lines[i];
-      const HalfedgeId h = edges_[i];
-      if (!h.valid()) {
-        const auto from = static_cast<std::size_t>(a), to = static_cast<std::size_t>(b);
-        const bool goes = vertex[from] < 0 || vertex[to] < 0;
-        if ((goes ? n_dropped : n_lost)++ < kNamed)
-          (goes ? dropped : lost).push_back(text(names().point(from), " to ", names().point(to)));
-      } else if (are_features && !loaded_.mesh.is_boundary(h)) {
-        loaded_.mesh.set_constrained(h, true);
-      }
-    }
-    if (n_lost > 0)
-      warn(listed(n_lost,
-                  n_lost == 1 ? "line is no edge of the mesh and constrains nothing"
-                              : "lines are no edges of the mesh and constrain nothing",
-                  lost));
-    if (n_dropped > 0)
-      warn(listed(n_dropped,
-                  n_dropped == 1 ? "line to a point of no triangle is dropped with it"
-                                 : "lines to points of no triangle are dropped with them",
-                  dropped));
   }
   /// Quadrilaterals stay as they are: their corners are fixed, their sides and their diagonal constrained.
   void keep_quadrilaterals() {
@@ -249,6 +186,7 @@ VertexOfPoint::VertexOfPoint(const std::vector<bool>& kept) : VertexOfPoint(kept
 }
 
 Expected<void> expect_triangles(const MeshFile& file) {
+  if (auto right = expect_no_surface(file); !right) return right;
   const std::size_t n = file.tetrahedra.size();
   if (n == 0) return {};
   return InputError{ErrorCode::unsupported, file.numbering ? file.numbering->tetrahedron_where(0) : file.path,

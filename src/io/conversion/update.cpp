@@ -198,17 +198,19 @@ void copy_vertices(MeshFile& file, const Mesh& mesh, const Former& former) {
 
 namespace {
 
-void copy_vertices(MeshFile& file, const tets::TetMesh& mesh) {
+/// Copies the vertices of a mesh in space.
+template <class SpaceMesh>
+void copy_space(MeshFile& file, const SpaceMesh& mesh, int dimension) {
   std::vector<double> heights(mesh.n_vertices());
   file.points.resize(mesh.n_vertices());
   file.weights.resize(mesh.n_vertices());
   for (const VertexId v : mesh.vertices()) {
-    const tets::WeightedPoint& p = mesh.point(v);
+    const auto p = mesh.point(v);
     file.points[v.index] = {p.x, p.y};
     heights[v.index] = p.z;
     file.weights[v.index] = p.w;
   }
-  file.points_in = SpacePoints{std::move(heights)};
+  file.points_in = SpacePoints{std::move(heights), dimension};
   drop_zero_weights(file);
 }
 
@@ -220,9 +222,12 @@ bool same_numbers(const Former& former, std::size_t n) {
   return former.size() == n;
 }
 
-/// Renumbers the lines and marked points of a file with n points for the mesh.
-void update_lines(MeshFile& file, std::size_t n, const LoadedMesh& loaded, const Mesh& mesh, const Former& former) {
-  const std::vector<bool>& edge_lines = loaded.edge_lines;
+}  // namespace
+
+void copy_vertices(MeshFile& file, const surfaces::SurfaceMesh& mesh) { copy_space(file, mesh, 2); }
+
+void update_lines(MeshFile& file, std::size_t n, const std::vector<bool>& edge_lines, const Mesh& mesh,
+                  const Former& former) {
   // If the file was changed meanwhile, nothing is known of its lines.
   const bool has_edge_lines = !edge_lines.empty() && edge_lines.size() == file.lines.size();
   if (has_edge_lines && same_numbers(former, n)) {
@@ -236,8 +241,6 @@ void update_lines(MeshFile& file, std::size_t n, const LoadedMesh& loaded, const
   }
 }
 
-}  // namespace
-
 DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh, const Former& vertices,
                   const UpdateOptions& options) {
   const auto& vertex = loaded.vertex_of_point;
@@ -250,7 +253,7 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh, co
     former = vertices_by_place(file, mesh);
   }
   DataReport report = DataUpdater(file, TriangleChange(file, mesh, options.executor), former, options).update();
-  update_lines(file, n_before, loaded, mesh, former);
+  update_lines(file, n_before, loaded.edge_lines, mesh, former);
   copy_vertices(file, mesh, former);
   copy_cells(file.triangles, mesh);
   if (has_unused || !former.empty()) file.numbering = nullptr;  // its numbers no longer fit the points
@@ -263,7 +266,7 @@ DataReport update(MeshFile& file, const LoadedTetMesh& loaded, const tets::TetMe
   DataReport report =
       DataUpdater(file, TetChange(loaded.mesh, mesh, options.executor), origins.vertices, options).update();
   if (!origins.vertices.empty()) take_pieces(file, loaded.mesh, mesh, origins);
-  copy_vertices(file, mesh);
+  copy_space(file, mesh, 3);
   copy_cells(file.tetrahedra, mesh);
   if (has_unused || !origins.vertices.empty()) file.numbering = nullptr;
   return report;

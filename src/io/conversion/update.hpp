@@ -17,6 +17,12 @@ void drop_zero_weights(MeshFile& file);
 /// Gives the file the vertices of the mesh, in its space.
 void copy_vertices(MeshFile& file, const Mesh& mesh, const Former& former);
 
+void copy_vertices(MeshFile& file, const surfaces::SurfaceMesh& mesh);
+
+/// Renumbers the lines and marked points of a file with n points for the mesh. `edge_lines`: as in LoadedMesh.
+void update_lines(MeshFile& file, std::size_t n, const std::vector<bool>& edge_lines, const Mesh& mesh,
+                  const Former& former);
+
 /// For each vertex of the mesh the point of the file at its place, if there is one.
 [[nodiscard]] Former vertices_by_place(const MeshFile& file, const Mesh& mesh);
 

@@ -107,9 +107,19 @@ void settle_bed(Document& d, std::optional<Positive> positive) {
                             "--positive up to confirm (positive=\"down\" or \"up\" in Python)"));
 }
 
+/// A surface has triangles alone.
+void drop_quadrilaterals(MeshFile& f) {
+  const std::size_t n = quadrilaterals_of(f).size();
+  if (n == 0) return;
+  std::erase_if(f.triangles.data, [](const DataArray& array) { return array.name == kQuadrilateral; });
+  f.warnings.push_back(
+      text(n, n == 1 ? " quadrilateral of a curved surface is" : " quadrilaterals of a curved surface are",
+           " cut into two triangles", n == 1 ? "" : " each"));
+}
+
 void guess_degrees(Document& d) {
   MeshFile& f = d.file;
-  if (!d.may_be_degrees) return;
+  if (!d.may_be_degrees || f.is_surface()) return;
   const DataArray* const bed = bed_of(f);
   const std::vector<double> heights = bed == nullptr ? std::vector<double>() : to_doubles(Values(bed->values));
   if (look_like_degrees(f.points, heights)) f.points_in = DegreePoints{.is_guessed = true, .z = f.z()};
@@ -167,6 +177,7 @@ void check(Document& d, const ReadOptions& options) {
     for (std::size_t i = 0; i < f.points.size(); ++i) places.push_back({f.points[i].x, f.points[i].y, d.heights[i]});
     const bool is_periodic = f.periodic() != nullptr;
     settle_points(d.file, std::move(places), *d.names);
+    if (f.is_surface()) drop_quadrilaterals(f);
     if (is_periodic && f.sphere() != nullptr)
       fail(ErrorCode::unsupported, d.names->path, "has periods and points on a sphere; expected points of a plane");
   } else if (d.z != 0 && f.sphere() == nullptr) {

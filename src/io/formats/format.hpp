@@ -198,7 +198,9 @@ void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
 [[nodiscard]] std::vector<std::int32_t> one_tag_a_point(const WriteJob& job);
 
 /// "a Fluent mesh, which temper does not read; meshio converts it", for a file in a recognized format. Else empty.
-[[nodiscard]] std::string recognize_unsupported(std::string_view beginning, std::uint64_t bytes);
+[[nodiscard]] std::string recognize_unsupported(std::string_view beginning);
+/// Says whether a file of this size is a binary STL file, which begins with any title.
+[[nodiscard]] bool is_binary_stl(std::string_view beginning, std::uint64_t bytes);
 
 // --- weights of formats without a place for them ---------------------------------------------------
 /// PATH.weights.csv

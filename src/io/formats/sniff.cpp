@@ -45,15 +45,6 @@ bool is_freefem(std::string_view head) {
          std::all_of(point.begin(), point.end(), only("0123456789+-.eE")) && only("0123456789+-")(point[2]);
 }
 
-/// The size is exact: 80 bytes of any kind, the number of triangles, and 50 bytes for each.
-bool is_binary_stl(std::string_view beginning, std::uint64_t bytes) {
-  constexpr std::size_t kTitle = 80, kHeader = 84, kTriangleBytes = 50;
-  if (beginning.size() < kHeader) return false;
-  std::size_t n = 0;
-  for (std::size_t i = kHeader; i > kTitle; --i) n = n << 8 | static_cast<unsigned char>(beginning[i - 1]);
-  return n > 0 && (bytes - kHeader) % kTriangleBytes == 0 && (bytes - kHeader) / kTriangleBytes == n;
-}
-
 /// The first line that is no comment.
 std::string_view skip_comments(std::string_view s, char comment) {
   for (s = skip_blanks(s); s.starts_with(comment); s = skip_blanks(s)) {
@@ -106,7 +97,6 @@ constexpr Known kKnown[] = {
      [](std::string_view h) { return h.find("<VTKFile") != std::string_view::npos; }},
     {"an XDMF file", [](std::string_view h) { return h.find("<Xdmf") != std::string_view::npos; }, kMeshio},
     {"a DOLFIN XML mesh", [](std::string_view h) { return h.find("<dolfin") != std::string_view::npos; }, kMeshio},
-    {"an STL file", [](std::string_view h) { return h.starts_with("solid"); }, kMeshio},
     {"an Abaqus input file",
      [](std::string_view h) {
        return starts_with_any_case(skip_blanks(h), "*HEADING") || starts_with_any_case(skip_blanks(h), "*NODE") ||
@@ -141,12 +131,11 @@ constexpr Known kKnown[] = {
 
 }  // namespace
 
-std::string recognize_unsupported(std::string_view beginning, std::uint64_t bytes) {
+std::string recognize_unsupported(std::string_view beginning) {
   const std::string_view head = beginning.substr(0, kSniffBytes);
   for (const Known& known : kKnown) {
     if (known.is(head)) return text(known.name, ", which temper does not read", known.advice);
   }
-  if (is_binary_stl(beginning, bytes)) return text("an STL file in binary, which temper does not read", kMeshio);
   return {};
 }
 

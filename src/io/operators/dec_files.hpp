@@ -22,17 +22,6 @@ struct DecFolder {
   [[nodiscard]] Output& open(std::string_view name) const;
 };
 
-struct DecJob : DecFolder {
-  const Mesh& mesh;
-  const DecComplex& complex;
-  const PowerCells& cells;
-};
-
-struct TetDecJob : DecFolder {
-  const tets::TetMesh& mesh;
-  const tets::DecComplex& complex;
-};
-
 /// Places in the coordinates of the files: two in the plane, three on the sphere and in space. They refer to the mesh
 /// or its operators.
 struct DecPositions {
@@ -44,8 +33,21 @@ struct DecPositions {
     return k == 0 ? p.x : k == 1 ? p.y : p.z;
   }
 };
-/// The positions of vertices; on the sphere without weights.
-[[nodiscard]] DecPositions vertex_positions(const Mesh& mesh);
+struct DecJob : DecFolder {
+  const Mesh& mesh;
+  const DecComplex& complex;
+  const PowerCells& cells;
+  const surfaces::SurfaceMesh* surface = nullptr;  ///< Has the places, if `mesh` is its connectivity
+
+  /// The positions of vertices; on the sphere without weights.
+  [[nodiscard]] DecPositions positions() const;
+};
+
+struct TetDecJob : DecFolder {
+  const tets::TetMesh& mesh;
+  const tets::DecComplex& complex;
+};
+
 [[nodiscard]] DecPositions orthocenter_positions(const DecComplex& complex);
 [[nodiscard]] DecPositions midpoint_positions(const DecComplex& complex);
 [[nodiscard]] DecPositions corner_positions(const PowerCells& cells);

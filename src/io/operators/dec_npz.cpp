@@ -99,8 +99,8 @@ void add_positions(NpzWriter& npz, std::string_view name, const DecPositions& pl
 
 /// Vertices, and the triangles or tetrahedra.
 template <class AnyMesh, class Elements>
-void add_mesh(NpzWriter& npz, const DecFolder& folder, const AnyMesh& mesh, std::string_view name,
-              const Elements& elements) {
+void add_mesh(NpzWriter& npz, const DecFolder& folder, const AnyMesh& mesh, const DecPositions& positions,
+              std::string_view name, const Elements& elements) {
   constexpr std::size_t kCorners = std::tuple_size_v<std::remove_cvref_t<decltype(mesh.corners(*elements.begin()))>>;
   std::vector<double> weights;
   std::vector<std::int64_t> points;
@@ -114,7 +114,7 @@ void add_mesh(NpzWriter& npz, const DecFolder& folder, const AnyMesh& mesh, std:
     for (const VertexId v : mesh.corners(t)) corners.push_back(static_cast<std::int32_t>(v.index));
     regions.push_back(mesh.region(t));
   }
-  add_positions(npz, "vertices", vertex_positions(mesh));
+  add_positions(npz, "vertices", positions);
   npz.add("weights", weights);
   npz.add("points", points);
   npz.add(name, corners, {elements.size(), kCorners});
@@ -239,7 +239,7 @@ void write_dec_npz(const DecJob& job) {
   const DecComplex& c = job.complex;
   const DecMatrices matrices = matrices_of(c);
   NpzWriter npz(job.open("operators.npz"));
-  add_mesh(npz, job, job.mesh, "triangles", job.mesh.triangles());
+  add_mesh(npz, job, job.mesh, job.positions(), "triangles", job.mesh.triangles());
   add_space(npz, job.mesh);
   add_edges(npz, c);
   add_matrices(npz, matrices, c);
@@ -254,7 +254,7 @@ void write_dec_npz(const TetDecJob& job) {
   const tets::DecComplex& c = job.complex;
   const DecMatrices matrices = matrices_of(c);
   NpzWriter npz(job.open("operators.npz"));
-  add_mesh(npz, job, job.mesh, "tetrahedra", job.mesh.tetrahedra());
+  add_mesh(npz, job, job.mesh, vertex_positions(job.mesh), "tetrahedra", job.mesh.tetrahedra());
   add_edges(npz, c);
   add_faces(npz, c);
   add_matrices(npz, matrices, c);

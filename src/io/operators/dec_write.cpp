@@ -146,15 +146,24 @@ Expected<std::vector<std::string>> write_dec(const std::string& folder, const Me
       folder, [&] { return write_dec_or_throw<DecJob>(folder, options, mesh, complex, cells); });
 }
 
+Expected<std::vector<std::string>> write_dec(const std::string& folder, const surfaces::SurfaceMesh& mesh,
+                                             const DecComplex& complex, const DecWriteOptions& options) {
+  const PowerCells cells = dual_cells(mesh, complex);
+  return guarded<std::vector<std::string>>(
+      folder, [&] { return write_dec_or_throw<DecJob>(folder, options, mesh.connectivity(), complex, cells, &mesh); });
+}
+
 Expected<std::vector<std::string>> write_dec(const std::string& folder, const tets::TetMesh& mesh,
                                              const tets::DecComplex& complex, const DecWriteOptions& options) {
   return guarded<std::vector<std::string>>(
       folder, [&] { return write_dec_or_throw<TetDecJob>(folder, options, mesh, complex); });
 }
 
-DecPositions vertex_positions(const Mesh& mesh) {
+DecPositions DecJob::positions() const {
+  if (surface != nullptr)
+    return {3, surface->n_vertices(), [on = surface](std::size_t i) { return on->position(VertexId(i)); }};
   return {static_cast<std::size_t>(mesh.space().dimension()), mesh.n_vertices(),
-          [&mesh](std::size_t i) { return mesh.space().place(mesh.point(VertexId(i))); }};
+          [&on = mesh](std::size_t i) { return on.space().place(on.point(VertexId(i))); }};
 }
 
 DecPositions orthocenter_positions(const DecComplex& complex) {

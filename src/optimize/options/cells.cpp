@@ -1,4 +1,4 @@
-// Options, words and values that are for meshes of triangles or of tetrahedra alone.
+// Options, words and values that are for some kinds of meshes alone.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -11,9 +11,8 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-/// Refuses what is for other cells; `instead` lists what these cells have.
-InputError for_others(const std::string& what, CellKinds cells, const std::string& instead) {
-  const CellKinds others = cells == CellKinds::triangles ? CellKinds::tetrahedra : CellKinds::triangles;
+/// Refuses what is for `others`; `instead` lists what these cells have.
+InputError for_others(const std::string& what, CellKinds others, CellKinds cells, const std::string& instead) {
   return {ErrorCode::invalid_option,
           {},
           what + " is for " + std::string(name(others)) + " alone. Next: leave it out; for " +
@@ -29,21 +28,37 @@ Expected<void> check_word(const std::string& what, std::span<const Preset> prese
   for (const Preset& each : presets) {
     if (fits(each.cells, cells)) names.push_back(each.name);
   }
-  return for_others(what + " '" + std::string(word) + "'", cells, join(names));
+  return for_others(what + " '" + std::string(word) + "'", preset->cells, cells, join(names));
 }
 
 std::string with_value(const OptionRow& row, const OptimizeOptions& options) {
   return "`" + std::string(row.name) + "=" + option_text(row, row.get(options)) + "`";
 }
 
-/// Refuses a choice that is for other cells.
-Expected<void> check_choice(const OptionRow& row, const OptimizeOptions& options, CellKinds cells) {
-  std::string_view names = cells == CellKinds::triangles ? row.for_triangles : row.for_tetrahedra;
+/// The choices that a row has for some cells. Empty: all.
+Names choices_for(const OptionRow& row, CellKinds cells) {
+  std::string_view names = cells == CellKinds::triangles    ? row.for_triangles
+                           : cells == CellKinds::tetrahedra ? row.for_tetrahedra
+                                                            : row.for_surfaces;
   Names allowed;
   for (; !names.empty(); names.remove_prefix(std::min(names.size(), allowed.back().size() + 1)))
     allowed.push_back(names.substr(0, names.find('|')));
-  if (allowed.empty() || std::ranges::find(allowed, option_text(row, row.get(options))) != allowed.end()) return {};
-  return for_others(with_value(row, options), cells, join(allowed));
+  return allowed;
+}
+
+/// Refuses a choice that is for other cells.
+Expected<void> check_choice(const OptionRow& row, const OptimizeOptions& options, CellKinds cells) {
+  const std::string chosen = option_text(row, row.get(options));
+  const auto has_it = [&](const Names& names) {
+    return names.empty() || std::ranges::find(names, chosen) != names.end();
+  };
+  const Names allowed = choices_for(row, cells);
+  if (has_it(allowed)) return {};
+  auto others = CellKinds();
+  for (const CellKinds kind : {CellKinds::triangles, CellKinds::tetrahedra, CellKinds::surfaces}) {
+    if (fits(row.cells, kind) && has_it(choices_for(row, kind))) others = others | kind;
+  }
+  return for_others(with_value(row, options), others, cells, join(allowed));
 }
 
 /// The options for these cells, in back quotes, without the paper's switches.
@@ -74,7 +89,7 @@ Expected<void> check_cells(const OptimizeOptions& options, const GivenNames& giv
   for (const std::string_view name : given.options) {
     const OptionRow& row = *find_option(name);
     if (!fits(row.cells, cells) && row.get(options) != row.get({}))
-      return for_others(with_value(row, options), cells, rows_for(cells));
+      return for_others(with_value(row, options), row.cells, cells, rows_for(cells));
     if (!fits(row.cells, cells)) continue;
     if (auto right = check_choice(row, options, cells); !right) return right;
   }

@@ -13,6 +13,7 @@ namespace temper {
 namespace {
 
 using Options = OptimizeOptions;
+constexpr auto kForAll = CellKinds::all;
 constexpr auto kForBoth = CellKinds::both;
 constexpr auto kForTriangles = CellKinds::triangles;
 
@@ -41,12 +42,12 @@ void keep_measures(Options& o, Client client) {
 }
 
 constexpr auto kTargets = std::to_array<Preset>({
-    {"any", "Any solver on a dual mesh: large margins, smaller errors", kForBoth, [](Options&) {}},
+    {"any", "Any solver on a dual mesh: large margins, smaller errors", kForAll, [](Options&) {}},
     {"valid", "Valid triangles alone: as any, but only bad places change", kForBoth,
      [](Options& o) { o.change = Change::least; }},
-    {"vertex", "Unknowns at vertices: MODFLOW, DEVSIM, exterior calculus", kForBoth,
+    {"vertex", "Unknowns at vertices: MODFLOW, DEVSIM, exterior calculus", kForAll,
      [](Options& o) { o.scheme = Scheme::vertex; }},
-    {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy", kForBoth,
+    {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy", kForAll,
      [](Options& o) { o.scheme = Scheme::cell; }},
     {"stars", "Diagonal Hodge stars of exterior calculus", kForTriangles, [](Options& o) { o.scheme = Scheme::stars; }},
     {"mpas", "MPAS: no weights, centered edges; may add and remove vertices", kForTriangles,
@@ -118,7 +119,7 @@ constexpr auto kTargets = std::to_array<Preset>({
 });
 
 constexpr auto kEfforts = std::to_array<Preset>({
-    {"quick", "Few sweeps and repairs, in about half of the time", kForBoth,
+    {"quick", "Few sweeps and repairs, in about half of the time", kForAll,
      [](Options& o) {
        o.accuracy.sweeps = std::min(o.accuracy.sweeps, 5);
        o.repair_trials = 2000;
@@ -128,9 +129,9 @@ constexpr auto kEfforts = std::to_array<Preset>({
      },
      false, "fast faster fastest low lowest small min minimal short"},
     {"normal", "Sweeps until little is gained. Targets vertex and cell also lower the error of the solver itself",
-     kForBoth, [](Options&) {}, false, "default medium middle usual standard"},
+     kForAll, [](Options&) {}, false, "default medium middle usual standard"},
     {"high", "More sweeps and repairs, which may add and remove vertices. More steps lower the solver's own error",
-     kForBoth,
+     kForAll,
      [](Options& o) {
        o.accuracy.sweeps = 200;
        o.accuracy.tolerance = 1e-7;
@@ -148,14 +149,14 @@ constexpr auto kEfforts = std::to_array<Preset>({
 });
 
 constexpr auto kKeeps = std::to_array<Preset>({
-    {"positions", "All vertices stay, and only weights change", kForBoth,
+    {"positions", "All vertices stay, and only weights change", kForAll,
      [](Options& o) {
        o.unknowns = Unknowns::weights;
        if (o.boundary == BoundaryVertices::slide) o.boundary = BoundaryVertices::keep;
      }},
     {"weights", "All weights stay, and only positions change", kForBoth, move_positions_alone},
-    {"edges", "No edge flips", kForBoth, [](Options& o) { o.flips = Flips::none; }},
-    {"boundary", "Vertices of the boundary and of interfaces stay", kForBoth,
+    {"edges", "No edge flips", kForAll, [](Options& o) { o.flips = Flips::none; }},
+    {"boundary", "Vertices of the boundary and of interfaces stay", kForAll,
      [](Options& o) {
        o.boundary = BoundaryVertices::keep;
        o.interfaces = InterfaceVertices::fixed;

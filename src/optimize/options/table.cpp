@@ -144,7 +144,9 @@ constexpr auto kError = &Options::solver_error;
 constexpr auto kPaper = &Options::paper;
 constexpr auto kGuard = &Options::guard;
 constexpr auto kTets = &Options::tets;
+constexpr auto kSurfaces = &Options::surfaces;
 constexpr auto kBoth = CellKinds::both;
+constexpr auto kAll = CellKinds::all;
 
 constexpr OptionRange at_least(double low) { return {.low = low}; }
 constexpr OptionRange more_than(double low) { return {.low = low, .open = true}; }
@@ -236,7 +238,10 @@ constexpr OptionRow kAccuracyRows[] = {
     row<&Options::scheme>("scheme",
                           "Scheme of the solver. vertex: unknowns at vertices. cell: unknowns at orthocenters, "
                           "two-point flux. stars: diagonal Hodge stars. all: each of these, with larger margins",
-                          {.cells = kBoth, .for_tetrahedra = "all|vertex|cell", .needs = {kForAccuracy}}),
+                          {.cells = kAll,
+                           .for_tetrahedra = "all|vertex|cell",
+                           .for_surfaces = "all|vertex|cell",
+                           .needs = {kForAccuracy}}),
     row<&Options::change>("change",
                           "Part of the mesh that may change. least: only the places that violate what `scheme` needs. "
                           "All else stays, bit for bit, unless many places are bad, or stay bad",
@@ -289,7 +294,7 @@ constexpr OptionRow kMoveRows[] = {
         "Method that improves one vertex. newton: Newton steps in position and weight together. golden: the paper's "
         "golden section. alternating: Newton in position, then in weight"),
     row<&Options::unknowns>("unknowns", "Unknowns that steps may change. The others keep their values",
-                            {.cells = kBoth}),
+                            {.cells = kAll, .for_surfaces = "positions_and_weights|weights"}),
     row<kPaper, &Paper::weights_from>("weights_from", "First sweep that changes weights, counted from 0",
                                       {.needs = {{{"unknowns", "positions_and_weights"}}}}),
     row<kPaper, &Paper::relaxation>("relaxation", "Over-relaxation of Newton steps",
@@ -315,7 +320,7 @@ constexpr OptionRow kConnectivityRows[] = {
     row<&Options::flips>("flips",
                          "Time at which edges flip. immediate: at once. deferred: after the inner sweeps. none: never. "
                          "Then the connectivity stays, and no step may make an edge non-regular",
-                         {.cells = kBoth, .for_tetrahedra = "immediate|none"}),
+                         {.cells = kAll, .for_tetrahedra = "immediate|none", .for_surfaces = "immediate|none"}),
     row<kPaper, &Paper::flip_limit>(
         "flip_limit",
         "Limit of a step that makes an edge flip. The step ends before, at or after the flip, or is unlimited",
@@ -335,8 +340,10 @@ constexpr OptionRow kConnectivityRows[] = {
         "weights by a linear program. vertices: also remove and insert vertices. The best result is kept",
         {.needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
     row<&Options::repair_trials>(
-        "repair_trials", "Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as 20",
-        {.needs = {{{"repair", "perturb|vertices"}}}}),
+        "repair_trials",
+        "Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as 20, and so does an edit "
+        "of a curved surface",
+        {.cells = CellKinds::all_triangles, .needs = {{{"repair", "perturb|vertices"}}}}),
     row<&Options::boundary>(
         "boundary",
         "Treatment of the boundary. keep: it stays bit for bit. slide: vertices may move along straight pieces; "
@@ -442,7 +449,7 @@ constexpr OptionRow kStoppingRows[] = {
                                   "Measure of the gain of a sweep. relative: relative to the energy. paper: change of "
                                   "the mean energy per triangle, absolute"),
     row<&Options::time_limit>("time_limit", "Time limit of the run in seconds. 0: no limit",
-                              {.cells = kBoth, .range = at_least(0), .common = true}),
+                              {.cells = kAll, .range = at_least(0), .common = true}),
     row<kPaper, &Paper::seed>("seed",
                               "Seed of the jitter that frees symmetric grids, of repairs, and of `order=random`"),
 };
@@ -505,6 +512,19 @@ constexpr OptionRow kTetrahedraRows[] = {
         {.cells = kForTetrahedra}),
 };
 
+constexpr auto kForSurfaces = CellKinds::surfaces;
+
+constexpr OptionRow kSurfaceRows[] = {
+    row<kSurfaces, &CurvedSurfaceOptions::distance>(
+        "surface_distance",
+        "Largest distance between the input surface and the result, in parts of the diagonal of the bounding box",
+        {.cells = kForSurfaces, .range = {0, 1}, .common = true}),
+    row<kSurfaces, &CurvedSurfaceOptions::crease_angle>(
+        "crease_angle",
+        "Angle of creases in degrees. Edges whose triangles turn by more than it stay, with their vertices",
+        {.cells = kForSurfaces, .range = from_to(0, 180), .common = true}),
+};
+
 constexpr OptionGroup kGroups[] = {
     {"Energy", kEnergyRows},
     {"Accuracy", kAccuracyRows},
@@ -515,6 +535,7 @@ constexpr OptionGroup kGroups[] = {
     {"Stopping", kStoppingRows},
     {"Guard", kGuardRows},
     {"Tetrahedra", kTetrahedraRows},
+    {"Curved surfaces", kSurfaceRows},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dec/builder.hpp"
+#include "dec/summary.hpp"
 #include "regularity/duals.hpp"
 #include "temper/surfaces.hpp"
 
@@ -93,6 +94,43 @@ DecComplex dec_operators(const IntrinsicMesh& mesh) {
 
 DecComplex dec_operators(const SurfaceMesh& mesh) {
   return DecBuilder(mesh.connectivity(), SurfaceMeasures(mesh)).build();
+}
+
+DecSummary summarize(const SurfaceMesh& mesh, const DecComplex& complex) {
+  DecSummary s = summary_of_operators(mesh.connectivity(), complex);
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.points(t);
+    s.not_well_centered += is_well_centered(p, q, r) ? 0 : 1;
+  }
+  return s;
+}
+
+PowerCells dual_cells(const SurfaceMesh& mesh, const DecComplex& complex) {
+  const Mesh& connectivity = mesh.connectivity();
+  PowerCells cells;
+  cells.areas = complex.star0;
+  cells.starts.push_back(0);
+  for (const TriangleId t : mesh.triangles()) {
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId out = Mesh::halfedge(t, k), in = Mesh::prev(out);
+      const VertexId v = connectivity.origin(out);
+      // The two right triangles at v, along its two edges in t.
+      double area = 0;
+      for (const HalfedgeId h : {out, in}) {
+        const DecEdge& edge = complex.edges[complex.edge_of_halfedge[h]];
+        const double d = edge.from == v ? edge.crossing : edge.length - edge.crossing;
+        area += 0.5 * d * (edge.left == t ? edge.left_height : edge.right_height);
+      }
+      cells.vertices.push_back(v);
+      cells.sphere_corners.push_back(mesh.position(v));
+      cells.sphere_corners.push_back(complex.sphere_midpoints[complex.edge_of_halfedge[out]]);
+      cells.sphere_corners.push_back(complex.sphere_orthocenters[t]);
+      cells.sphere_corners.push_back(complex.sphere_midpoints[complex.edge_of_halfedge[in]]);
+      cells.polygon_areas.push_back(area);
+      cells.starts.push_back(cells.sphere_corners.size());
+    }
+  }
+  return cells;
 }
 
 }  // namespace temper::surfaces

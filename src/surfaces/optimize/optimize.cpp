@@ -7,9 +7,12 @@
 #include "base/text.hpp"
 #include "feasibility/demand.hpp"
 #include "geometry/bounding_boxes.hpp"
+#include "optimize/options/settings.hpp"
+#include "optimize/run/end_of_run.hpp"
 #include "surfaces/mesh/surface_editor.hpp"
 #include "surfaces/optimize/flips.hpp"
 #include "surfaces/optimize/run.hpp"
+#include "temper/detail/optimize_table.hpp"
 
 namespace temper::surfaces {
 namespace {
@@ -29,6 +32,8 @@ std::optional<InputError> expect_options(const SurfaceOptions& o) {
     return error("surface_distance", "a number from 0 to below 1", o.surface_distance);
   if (!(o.crease_angle_deg > 0 && o.crease_angle_deg <= 180))
     return error("crease_angle_deg", "an angle above 0 and at most 180", o.crease_angle_deg);
+  if (o.repair_trials < 0) return error("repair_trials", "a number from 0 on", o.repair_trials);
+  if (!(o.time_limit >= 0)) return error("time_limit", "a number from 0 on", o.time_limit);
   return std::nullopt;
 }
 
@@ -121,7 +126,46 @@ Draft draft_of(const SurfaceMesh& mesh, const IdVector<VertexId, std::uint8_t>& 
   return draft;
 }
 
+/// The energy of a mesh whose vertices may move and change their weights.
+double energy_of(const SurfaceMesh& mesh, double gamma) {
+  Draft draft = draft_of(mesh, IdVector<VertexId, std::uint8_t>(mesh.n_vertices(), 0), true);
+  return DraftEnergy(draft, gamma).value().lowered;
+}
+
 }  // namespace
+
+Expected<SurfaceOptions> surface_options(const OptimizeOptions& options) {
+  if (auto right = check_together(options, CellKinds::surfaces); !right) return right.error();
+  constexpr int kEditsPerTrial = 33;  // an edit moves the vertices of a patch again and again
+  SurfaceOptions made;
+  made.criterion = criterion_of(options);
+  made.surface_distance = options.surfaces.distance;
+  made.crease_angle_deg = options.surfaces.crease_angle;
+  made.may_move = options.unknowns != Unknowns::weights;
+  made.may_flip = made.may_insert = options.flips != Flips::none;
+  made.repair_trials = options.repair_trials / kEditsPerTrial;
+  made.time_limit = options.time_limit;
+  return made;
+}
+
+double Run::seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+
+bool Run::must_stop() const {
+  if (stopped_early(report.stopped)) return true;
+  const auto from = options.started.value_or(start);
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - from;
+  if (options.time_limit > 0 && passed.count() > options.time_limit) report.stopped = Stopped::time_limit;
+  if (options.must_stop && options.must_stop()) report.stopped = Stopped::canceled;
+  return stopped_early(report.stopped);
+}
+
+void Run::record(SweepRecord measured) const {
+  measured.sweep = report.sweeps;
+  measured.seconds = seconds();
+  report.history.push_back(measured);
+  if (options.observer && options.observer({measured, 0, 2 * kRounds}) == Continue::no)
+    report.stopped = Stopped::canceled;
+}
 
 void Run::move_all(State& state, bool with_weights) {
   State best = state;
@@ -137,17 +181,19 @@ void Run::move_all(State& state, bool with_weights) {
       state.mesh.set_weight(v, draft.points[v].w);
     }
     if (!take_back(state.mesh, before, nearness)) state.mesh = before;
+    std::size_t flips = 0;
     if (options.may_flip) {
       const SurfaceMesh unflipped = state.mesh;
-      const std::size_t n = flip_negative_duals(state.mesh, nearness);
-      if (n > 0 && !nearness.too_far(state.mesh).empty()) {
+      flips = flip_negative_duals(state.mesh, nearness);
+      if (flips > 0 && !nearness.too_far(state.mesh).empty()) {
         state.mesh = unflipped;
-      } else {
-        flips += n;
+        flips = 0;
       }
     }
-    ++rounds;
+    report.flips += flips;
+    ++report.sweeps;
     state.bad = bad(state.mesh);
+    record({.energy = energy_of(state.mesh, gamma), .bad = state.bad, .flips = flips, .length_parameter = gamma});
     if (state.bad <= best.bad) best = state;
     gamma = std::max(kLastGamma, gamma * kGammaFactor);
   }
@@ -168,11 +214,11 @@ void Run::find_weights(State& state) const {
   request.from_input = true;
   request.margin = options.margin;
   request.constraints = constraints_of(options.criterion);
-  request.must_stop = options.must_stop;
-  const auto report = surfaces::find_weights(state.mesh, solver, request);
-  if (!report) return;
+  request.must_stop = [this] { return must_stop(); };
+  const auto found = surfaces::find_weights(state.mesh, solver, request);
+  if (!found) return;
   SurfaceMesh changed = state.mesh;
-  for (const VertexId v : changed.vertices()) changed.set_weight(v, report->weights[v]);
+  for (const VertexId v : changed.vertices()) changed.set_weight(v, found->weights[v]);
   take_if_better(state, std::move(changed));
 }
 
@@ -186,10 +232,12 @@ void Run::take_if_better(State& state, SurfaceMesh changed) const {
 Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options) {
   if (auto error = expect_options(options)) return *std::move(error);
   SurfaceReport report;
+  const auto begin = std::chrono::steady_clock::now();
   report.before = quality(mesh);
   report.diagonal = diagonal_of(mesh);
   const Nearness nearness(mesh, options.surface_distance * report.diagonal);
-  Run run{options, nearness, solver};
+  Run run{options, nearness, solver, report};
+  run.start = begin;
 
   State input{mesh, {}, {}, {}, run.bad(mesh)};
   Mesh& connectivity = SurfaceEditor(input.mesh).connectivity();
@@ -202,21 +250,23 @@ Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const Surf
   input.holds = held_vertices(input.mesh);
   for (const VertexId v : mesh.vertices()) input.origins.push_back(v);
 
+  report.objective = Objective::energy;
+  report.bad_before = violations(report.before, Criterion::well_centered);
+  report.objective_before = energy_of(mesh, kLastGamma);
+  run.record({.energy = report.objective_before, .bad = input.bad, .length_parameter = kLastGamma});
   State best = input;
   run.find_weights(best);
   for (const bool with_weights : {false, true}) {
-    if (best.bad == 0 || run.must_stop()) break;
+    if (best.bad == 0 || !options.may_move || run.must_stop()) break;
     State start = input;
     run.move_all(start, with_weights);
     run.find_weights(start);
     if (start.bad < best.bad) best = std::move(start);
   }
-  if (best.bad > 0 && options.may_insert) {
+  if (best.bad > 0 && options.may_insert && options.may_move) {
     run.repair(best);
     run.find_weights(best);
   }
-  report.stopped = run.must_stop();
-
   Mesh& result = SurfaceEditor(best.mesh).connectivity();
   for (const auto& [a, b] : best.creases) result.set_constrained(result.find_halfedge(a, b), false);
   mesh = std::move(best.mesh);
@@ -224,9 +274,11 @@ Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const Surf
   report.violations_before = violations(report.before, options.criterion);
   report.violations_after = violations(report.after, options.criterion);
   report.surface_distance = nearness.distance(mesh);
-  report.rounds = run.rounds, report.flips = run.flips, report.repairs = run.repairs;
-  const bool same_vertices = run.repairs == 0;
-  if (!same_vertices) report.vertices = best.origins;
+  report.objective_after = energy_of(mesh, kLastGamma);
+  report.bad_after = violations(report.after, Criterion::well_centered);
+  if (report.repairs > 0) report.vertices = best.origins;
+  count_vertices(report, report.vertices, report.before.vertices);
+  report.seconds = run.seconds();
   return report;
 }
 

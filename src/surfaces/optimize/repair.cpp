@@ -12,13 +12,11 @@ namespace temper::surfaces {
 namespace {
 
 constexpr int kRings[] = {2, 4, 8};
-// So many trials one after the other without a gain end the repairs. Of 20 trials less than one helps.
-constexpr std::size_t kMostTrials = 600;
 
-using Place = std::array<double, 3>;
+using Center = std::array<double, 3>;
 
 /// Says where a triangle is: the sum of its corners.
-Place place_of(const SurfaceMesh& mesh, TriangleId t) {
+Center center_of(const SurfaceMesh& mesh, TriangleId t) {
   const auto [p, q, r] = mesh.points(t);
   const Vec3 sum = p.position() + q.position() + r.position();
   return {sum.x, sum.y, sum.z};
@@ -31,7 +29,7 @@ std::optional<State> best_edit(Run& run, const State& state, TriangleId center, 
   std::optional<Patch> best;
   std::size_t least = now.value_or(patch.cells().size());
   for (const Edit& edit : patch.edits()) {
-    if (least == 0 || run.trials >= kMostTrials || run.must_stop()) break;
+    if (least == 0 || !run.may_try() || run.must_stop()) break;
     Patch trial = patch;
     if (!trial.make(edit, run.nearness)) continue;
     ++run.trials;
@@ -53,22 +51,22 @@ std::optional<State> best_edit(Run& run, const State& state, TriangleId center, 
 
 void Run::repair(State& state) {
   for (const int rings : kRings) {
-    std::set<Place> hopeless;
+    std::set<Center> hopeless;
     bool changed = true;
-    while (changed && state.bad > 0 && trials < kMostTrials && !must_stop()) {
+    while (changed && state.bad > 0 && may_try() && !must_stop()) {
       changed = false;
       for (const TriangleId t : cells_at_violations(state.mesh, options.criterion)) {
-        const Place place = place_of(state.mesh, t);
-        if (hopeless.count(place) > 0) continue;
+        const Center center = center_of(state.mesh, t);
+        if (hopeless.count(center) > 0) continue;
         if (std::optional<State> next = best_edit(*this, state, t, rings)) {
           state = *std::move(next);
-          ++repairs;
+          ++report.repairs;
           trials = 0;
           changed = true;
           break;
         }
-        hopeless.insert(place);
-        if (trials >= kMostTrials || must_stop()) break;
+        hopeless.insert(center);
+        if (!may_try() || must_stop()) break;
       }
     }
   }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -36,10 +37,15 @@ struct Run {
   const SurfaceOptions& options;
   const Nearness& nearness;
   LpSolver& solver;
-  std::size_t rounds = 0, flips = 0, repairs = 0;
+  SurfaceReport& report;
   std::size_t trials = 0;  ///< Of repairs, since the last one that helped
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
-  [[nodiscard]] bool must_stop() const { return options.must_stop && options.must_stop(); }
+  /// Asks the clock and the caller. Once the answer is yes, it stays, and the report has the reason.
+  [[nodiscard]] bool must_stop() const;
+  /// Puts a mesh into the history, and shows the progress.
+  void record(SweepRecord measured) const;
+  [[nodiscard]] double seconds() const;
   [[nodiscard]] std::size_t bad(const SurfaceMesh& mesh) const {
     return cells_at_violations(mesh, options.criterion).size();
   }
@@ -49,6 +55,7 @@ struct Run {
   /// Weights by descents, and for few bad cells by a linear program, if they leave fewer bad cells.
   void find_weights(State& state) const;
   void take_if_better(State& state, SurfaceMesh changed) const;
+  [[nodiscard]] bool may_try() const { return trials < static_cast<std::size_t>(options.repair_trials); }
   /// Edits next to bad triangles, as long as one helps.
   void repair(State& state);
 };

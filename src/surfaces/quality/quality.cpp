@@ -53,7 +53,7 @@ class Report {
     for (const TriangleId t : mesh_.triangles()) add(t);
     sums_.add(mesh_.connectivity());
     sums_.end(mesh_.n_triangles());
-    Quality q = std::move(sums_.report);
+    Quality q = {std::move(sums_.report)};
     static_cast<SolverMeasures&>(q) = SolverMeasures();
     compare_transmissibilities(q);
     for (const auto& ranked : worst_.sorted()) q.worst.push_back(describe(ranked.element));
@@ -113,7 +113,7 @@ class Report {
   }
 
   const SurfaceMesh& mesh_;
-  gathered::Sums<Quality, measured::kMeasures> sums_;
+  gathered::Sums<temper::Quality, measured::kMeasures> sums_;
   WorstList<TriangleId> worst_;
   Ranked<HalfedgeId> least_dual_ = {kInfinity, {}};
   std::vector<double> transmissibilities_;
@@ -123,8 +123,14 @@ class Report {
 
 Quality quality(const SurfaceMesh& mesh, std::size_t worst) { return Report(mesh, worst).take(); }
 
-TriangleQuality triangle_quality(const SurfaceMesh& mesh, TriangleId t) {
-  const TriangleMeasure m = measure_triangle(mesh.points(t));
+std::span<const QualityMeasure> quality_measures() {
+  const std::span<const QualityMeasure> all = temper::quality_measures();
+  const auto first_of_solvers = std::ranges::find(all, "min_edge_over_size", &QualityMeasure::key);
+  return all.first(static_cast<std::size_t>(first_of_solvers - all.begin()));
+}
+
+TriangleQuality triangle_quality(const Corners& corners) {
+  const TriangleMeasure m = measure_triangle(corners);
   const auto least = [](const std::array<double, 3>& of) { return *std::min_element(of.begin(), of.end()); };
   return {m.well_centered(), least(m.h_over_l), least(m.d_over_l), least(m.angle_deg)};
 }

@@ -47,6 +47,10 @@ class Damage : public FileTest {
     result.push_back({"avs", "a.inp",
                       "4 3 2 1 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n1 7 tri 1 2 3\n2 8 tri 1 3 4\n3 9 line 1 2\n1 2\n"
                       "v, real\n1 0 1\n2 0 1\n3 0 1\n4 0 1\n1 1\ni, integer\n1 1\n2 2\n3 3\n"});
+    result.push_back({"stl", "a.stl",
+                      "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+                      "endfacet\nfacet normal 1 0 0\nouter loop\nvertex 0 1 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\n"
+                      "endfacet\nendsolid s\n"});
     if (expects_netcdf()) {
       add("mpas", "a.nc", {"mpas", {}});
       add("ugrid", "b.nc", {"ugrid", {}});

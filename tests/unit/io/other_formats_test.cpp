@@ -494,7 +494,13 @@ TEST_F(OtherFormats, ASignThatTheUserSaysMakesZTheBedAndOverrulesTheFormat) {
 
 TEST_F(OtherFormats, HeightsAreDataOfAFlatMeshAndComeBackAsZ) {
   const std::string content = "OFF\n4 2 0\n0 0 1.5\n1 0 2\n1 1 -3\n0 1 4\n3 0 1 2\n3 0 2 3\n";
-  EXPECT_NE(refused("m.off", content).find("Next: --flat takes z as data"), std::string::npos);
+  const MeshFile surface = read_ok("m.off", content);
+  EXPECT_TRUE(surface.is_surface());
+  ASSERT_EQ(surface.warnings.size(), 1u);
+  EXPECT_EQ(
+      plain(surface.warnings[0]),
+      "m.off: z differs, so the mesh is a curved surface. Next: if z is a height or a depth, --flat takes the mesh "
+      "as one of the plane (flat=True in Python)");
   const auto f = read(path("m.off"), {.flat = true});
   ASSERT_TRUE(f) << f.error().what();
   ASSERT_EQ(f->point_data.size(), 1u);

@@ -307,7 +307,7 @@ TEST_F(SphereFiles, PlanesOfSevenDigitsArePlanesWithAWarning) {
       plain(plane->warnings[0]),
       "p.obj:3: point 3 has z = -50.0000114, but point 1 has z = -50: within 1e-06 of the extent, so all are taken "
       "for a plane of this z");
-  EXPECT_FALSE(at("-50.001"));
+  EXPECT_TRUE(at("-50.001")->is_surface());
 }
 
 TEST_F(SphereFiles, SmallPiecesOfSpheresAreNoPlanes) {
@@ -324,13 +324,28 @@ TEST_F(SphereFiles, SmallPiecesOfSpheresAreNoPlanes) {
 }
 
 TEST_F(SphereFiles, OfWhatIsNearlyASphereTheWorstPointIsNamed) {
-  const auto f = read(make("m.obj",
-                           "v 1 0 0\nv 0 1 0\nv 0 0 1.00001\nv -1.00002 0 0\nv 0 -1.00001 0\nf 1 2 3\nf 2 4 3\n"
-                           "f 4 5 3\nf 5 1 3\n"));
-  ASSERT_FALSE(f);
-  EXPECT_EQ(plain(f.error().what()),
+  auto f = read(make("m.obj",
+                     "v 1 0 0\nv 0 1 0\nv 0 0 1.00001\nv -1.00002 0 0\nv 0 -1.00001 0\nf 1 2 3\nf 2 4 3\n"
+                     "f 4 5 3\nf 5 1 3\n"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_TRUE(f->is_surface());
+  ASSERT_EQ(f->warnings.size(), 1U);
+  EXPECT_EQ(
+      plain(f->warnings[0]),
+      "m.obj: all points are on a sphere around the origin to 1e-05 of its radius, and 1e-06 is allowed, so they "
+      "are a curved surface. Next: --projection sphere moves them to the sphere (projection=\"sphere\" in Python)");
+  const auto refused = make_mesh(*f);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(plain(refused.error().what()),
             "m.obj:1: point 1 is 1 from the origin, but the median of all is 1.00001: off by 1e-05 of it, and 1e-06 is "
             "allowed; expected all on one sphere around the origin, or in a plane of constant z");
+  ASSERT_TRUE(project(*f, "sphere"));
+  ASSERT_NE(f->sphere(), nullptr);
+  EXPECT_EQ(f->sphere()->radius, 1.00001);
+  EXPECT_EQ(plain(f->warnings.back()),
+            "m.obj: points are moved to the sphere of radius 1.00001, by 1e-05 of the radius at most");
+  for (const Vec3 p : f->sphere()->places) EXPECT_NEAR(length(p), 1.00001, 1e-15);
+  EXPECT_TRUE(make_mesh(*f));
 }
 
 TEST_F(SphereFiles, JigsawEllipsoidsAreSpheresOrRefused) {

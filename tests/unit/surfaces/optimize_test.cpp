@@ -172,7 +172,7 @@ TEST(SurfaceOptimize, AGoodMeshStaysBitForBit) {
   const SurfaceMesh input = mesh;
   const SurfaceReport report = optimized(mesh);
   EXPECT_EQ(mesh, input);
-  EXPECT_EQ(report.rounds + report.flips + report.repairs, 0U);
+  EXPECT_EQ(static_cast<std::size_t>(report.sweeps) + report.flips + report.repairs, 0U);
   EXPECT_LT(report.surface_distance, 1e-15);
 }
 
@@ -278,7 +278,8 @@ TEST(SurfacePatch, EditsKeepTheSurfaceAndItsFlags) {
   const Nearness nearness(state.mesh, 1);
   const SurfaceOptions options;
   const auto solver = clp_solver();
-  const surfaces::Run run{options, nearness, *solver};
+  SurfaceReport report;
+  const surfaces::Run run{options, nearness, *solver, report};
   std::map<Edit::Kind, int> made;
   std::size_t made_cuts = 0;
   for (const TriangleId t : {TriangleId(0), TriangleId(8), TriangleId(100)}) {
@@ -415,7 +416,7 @@ TEST(SurfaceOptimize, AStopLeavesTheMeshAsItIsAndSaysSo) {
   const SurfaceMesh input = mesh;
   SurfaceOptions options;
   options.must_stop = [] { return true; };
-  EXPECT_TRUE(optimized(mesh, options).stopped);
+  EXPECT_EQ(optimized(mesh, options).stopped, Stopped::canceled);
   EXPECT_EQ(mesh, input);
 }
 

@@ -136,7 +136,7 @@ class MpasReader {
     for (std::size_t i = 0; i < x.size(); ++i) places.push_back({x[i], y[i], z[i]});
     const auto said = in_.number_attribute(nullptr, "sphere_radius");
     if (said) expect_radius(places, *said);
-    settle_points(document_.file, places, *document_.names);
+    settle_points(document_.file, places, *document_.names, false);
     if (document_.file.sphere() == nullptr) {
       // Points on one parallel have one z, as in a plane.
       const auto common = common_radius(places);

@@ -250,7 +250,7 @@ float as_float(double value) {
 
 /// The coordinates that measures use: those of a plane are two.
 Vec3 measured_place(const WriteJob& job, std::size_t point) {
-  if (job.file.dimension() == 3) return job.place(point);
+  if (job.file.in_space() != nullptr) return job.place(point);
   const Vec3 p = position_of(job.measured, point);
   return job.measured.sphere() != nullptr ? p : Vec3{p.x, p.y, 0};
 }
@@ -304,6 +304,7 @@ class Measurer {
   explicit Measurer(const MeshFile& file) : file_(file), space_(file.space()) {}
 
   [[nodiscard]] TriangleQuality measure(std::size_t triangle) const {
+    if (file_.is_surface()) return measure_in_space(triangle);
     std::array<WeightedPoint, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = vertex(static_cast<std::size_t>(file_.triangles[triangle][k]));
     for (WeightedPoint& p : corners) p = space_.image(p, corners[0]);
@@ -313,6 +314,17 @@ class Measurer {
   }
 
  private:
+  [[nodiscard]] TriangleQuality measure_in_space(std::size_t triangle) const {
+    std::array<surfaces::WeightedPoint, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto point = static_cast<std::size_t>(file_.triangles[triangle][k]);
+      const Vec3 p = position_of(file_, point);
+      corners[k] = {p.x, p.y, p.z, file_.weights.empty() ? 0 : file_.weights[point]};
+    }
+    const auto& [p, q, r] = corners;
+    if (surfaces::is_flat(p.position(), q.position(), r.position())) return {false, kUnknown, kUnknown, 0};
+    return surfaces::triangle_quality(corners);
+  }
   [[nodiscard]] WeightedPoint vertex(std::size_t point) const {
     const double w = file_.weights.empty() ? 0 : file_.weights[point];
     return space_.vertex_at(position_of(file_, point), w);

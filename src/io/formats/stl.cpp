@@ -1,0 +1,138 @@
+// STL, text and binary: triangles with three places each, without numbers of points.
+//
+//   solid NAME
+//     facet normal nx ny nz     binary: a title of 80 bytes, the number of triangles, and for each 50 bytes:
+//       outer loop              twelve floats, the normal and three places, and two bytes that mean nothing here
+//         vertex x y z          (three times)
+//       endloop
+//     endfacet
+//   endsolid NAME
+//
+// Corners at one place become one point. Normals are dropped: corners say which side is which.
+#include <array>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <unordered_map>
+
+#include "io/formats/format.hpp"
+#include "io/text/scanner.hpp"
+
+namespace temper::io {
+namespace {
+
+constexpr std::size_t kStlTitle = 80, kStlHeader = 84, kStlTriangle = 50;
+
+std::uint32_t little_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 4; i > 0; --i) value = value << 8 | static_cast<unsigned char>(bytes[i - 1]);
+  return value;
+}
+
+class StlReader {
+ public:
+  explicit StlReader(Source& source) : source_(source), document_(new_document(source.path)), plane_(document_) {}
+
+  Document read() {
+    is_binary_stl(source_.bytes, source_.bytes.size()) ? read_binary() : read_text();
+    FileNames& names = *document_.names;
+    names.points = RunLength(1, document_.file.points.size());
+    names.triangles = RunLength(1, document_.file.triangles.size());
+    if (n_flat_ > 0)
+      document_.file.warnings.push_back(text(source_.path, ": ", n_flat_,
+                                             n_flat_ == 1 ? " triangle is" : " triangles are",
+                                             " dropped: two corners are at one place"));
+    return std::move(document_);
+  }
+
+ private:
+  void read_binary() {
+    std::string_view bytes = std::string_view(source_.bytes).substr(kStlHeader);
+    for (; !bytes.empty(); bytes.remove_prefix(kStlTriangle)) {
+      std::array<Vec3, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto coordinate = [&](std::size_t axis) {
+          return double{std::bit_cast<float>(little_endian(bytes.substr(12 + 12 * k + 4 * axis, 4)))};
+        };
+        corners[k] = {coordinate(0), coordinate(1), coordinate(2)};
+      }
+      add(corners);
+    }
+  }
+
+  void read_text() {
+    Scanner scanner(source_.path, source_.bytes, '\0');
+    const auto expect = [&](std::string_view word) {
+      if (const std::string_view found = scanner.word(word); found != word)
+        scanner.fail_here(ErrorCode::syntax, "expected '", word, "', found ", in_quotes(found));
+    };
+    while (!scanner.at_end()) {
+      expect("solid");
+      scanner.next_line();
+      while (scanner.peek() == "facet") {
+        const auto line = static_cast<std::int64_t>(scanner.line());
+        expect("facet"), expect("normal");
+        for (int k = 0; k < 3; ++k) static_cast<void>(scanner.real("a normal"));
+        expect("outer"), expect("loop");
+        std::array<Vec3, 3> corners;
+        for (Vec3& p : corners) {
+          expect("vertex");
+          p.x = scanner.real("the x coordinate of a vertex");
+          p.y = scanner.real("the y coordinate of a vertex");
+          p.z = scanner.real("the z coordinate of a vertex");
+        }
+        expect("endloop"), expect("endfacet");
+        if (add(corners)) document_.names->triangle_lines.push_back(line);
+      }
+      expect("endsolid");
+      scanner.next_line();
+    }
+  }
+
+  /// False: it is dropped, because two corners are at one place.
+  bool add(const std::array<Vec3, 3>& corners) {
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
+      ++n_flat_;
+      return false;
+    }
+    document_.file.triangles.corners.push_back({point(corners[0]), point(corners[1]), point(corners[2])});
+    return true;
+  }
+
+  std::int32_t point(Vec3 p) {
+    p = {p.x + 0.0, p.y + 0.0, p.z + 0.0};  // −0 is the same place as 0
+    MeshFile& f = document_.file;
+    const auto [found, is_new] = points_.try_emplace(p, static_cast<std::int32_t>(f.points.size()));
+    if (is_new) {
+      f.points.push_back({p.x, p.y});
+      plane_.add(f.points.size() - 1, p.z);
+    }
+    return found->second;
+  }
+
+  Source& source_;
+  Document document_;
+  PlaneCheck plane_;
+  std::unordered_map<Vec3, std::int32_t, PlaceHash> points_;
+  std::size_t n_flat_ = 0;
+};
+
+}  // namespace
+
+bool is_binary_stl(std::string_view beginning, std::uint64_t bytes) {
+  // The size is exact. A text is never taken for binary this way, because its number of triangles would be too large.
+  if (beginning.size() < kStlHeader) return false;
+  const std::uint64_t n = little_endian(beginning.substr(kStlTitle, 4));
+  return n > 0 && bytes == kStlHeader + kStlTriangle * n;
+}
+
+bool sniff_stl(std::string_view head) {
+  Scanner scanner("", head, '\0');
+  if (scanner.peek() != "solid") return false;
+  scanner.next_line();
+  return scanner.peek() == "facet" || scanner.peek() == "endsolid";
+}
+
+Document read_stl(Source& source) { return StlReader(source).read(); }
+
+}  // namespace temper::io
