@@ -16,6 +16,7 @@
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/surfaces.hpp"
 #include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
 #include "temper/tets/tensor.hpp"
@@ -80,25 +81,53 @@ struct Tetrahedra {
   static const ReportTable& table_of_data(const io::DataReport* report) { return table_for_tetrahedra(report); }
 };
 
+/// Triangles of a curved surface. They have no tensors, and no errors of solvers.
+struct Surfaces {
+  using Mesh = surfaces::SurfaceMesh;
+  using Loaded = io::LoadedSurface;
+  using Element = TriangleId;
+  using Quality = surfaces::Quality;
+  using OptimizeReport = surfaces::SurfaceReport;
+  static constexpr CellKinds cells = CellKinds::surfaces;
+  static constexpr int dimension = 2;
+  static constexpr std::string_view element = "triangle", elements = "triangles";
+  static constexpr std::string_view link = "edge", links = "edges";
+  static constexpr std::string_view angle = "angle";
+  static constexpr auto cells_of_file = &io::MeshFile::triangles;
+  static constexpr auto measures = &surfaces::quality_measures;
+  static constexpr auto constraints = &temper::constraints_table;
+  static constexpr std::string_view length_of_constraints = Triangles::length_of_constraints;
+  static constexpr bool runs_on_all_ranks = false;
+  static const ReportTable& table_of_data(const io::DataReport* report) { return table_of(report); }
+};
+
 /// F(Subject) for each kind: sources of templates make them for all kinds with it.
-#define TEMPER_EACH_SUBJECT(F) F(Triangles) F(Tetrahedra)
+#define TEMPER_EACH_SUBJECT(F) TEMPER_EACH_FLAT_SUBJECT(F) F(Surfaces)
+/// The same for the kinds that have tensors and errors of solvers.
+#define TEMPER_EACH_FLAT_SUBJECT(F) F(Triangles) F(Tetrahedra)
+template <class Subject>
+inline constexpr bool is_flat_subject = !std::is_same_v<Subject, Surfaces>;
 
 /// The kinds, the first of which is meant when nothing is said.
-inline constexpr CellKinds kEachKind[] = {Triangles::cells, Tetrahedra::cells};
+inline constexpr CellKinds kEachKind[] = {Triangles::cells, Tetrahedra::cells, Surfaces::cells};
 
 /// Calls f with the Subject of these cells.
 template <class F>
 decltype(auto) with_subject(CellKinds cells, const F& f) {
-  return cells == Tetrahedra::cells ? f(Tetrahedra()) : f(Triangles());
+  return cells == Tetrahedra::cells ? f(Tetrahedra()) : cells == Surfaces::cells ? f(Surfaces()) : f(Triangles());
 }
 /// The Subject of a mesh or of its quality.
+template <class Part, class Subject>
+inline constexpr bool is_part_of =
+    std::is_same_v<Part, typename Subject::Mesh> || std::is_same_v<Part, typename Subject::Quality>;
 template <class Part>
-using SubjectOf =
-    std::conditional_t<std::is_same_v<Part, Tetrahedra::Mesh> || std::is_same_v<Part, Tetrahedra::Quality>, Tetrahedra,
-                       Triangles>;
+using SubjectOf = std::conditional_t<is_part_of<Part, Tetrahedra>, Tetrahedra,
+                                     std::conditional_t<is_part_of<Part, Surfaces>, Surfaces, Triangles>>;
 
 [[nodiscard]] inline CellKinds cells_of(const io::MeshFile& file) {
-  return file.dimension() == Tetrahedra::dimension ? Tetrahedra::cells : Triangles::cells;
+  return file.dimension() == Tetrahedra::dimension ? Tetrahedra::cells
+         : file.is_surface()                       ? Surfaces::cells
+                                                   : Triangles::cells;
 }
 
 /// "triangles or tetrahedra", for help.
@@ -123,8 +152,10 @@ using SubjectOf =
 
 [[nodiscard]] inline auto elements_of(const Mesh& mesh) { return mesh.triangles(); }
 [[nodiscard]] inline auto elements_of(const tets::TetMesh& mesh) { return mesh.tetrahedra(); }
+[[nodiscard]] inline auto elements_of(const surfaces::SurfaceMesh& mesh) { return mesh.triangles(); }
 [[nodiscard]] inline std::size_t n_elements(const Mesh& mesh) { return mesh.n_triangles(); }
 [[nodiscard]] inline std::size_t n_elements(const tets::TetMesh& mesh) { return mesh.n_tetrahedra(); }
+[[nodiscard]] inline std::size_t n_elements(const surfaces::SurfaceMesh& mesh) { return mesh.n_triangles(); }
 /// The number of elements of the mesh that a report is about.
 template <class Report>
 [[nodiscard]] std::size_t n_elements(const Report& report) {

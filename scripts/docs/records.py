@@ -29,7 +29,7 @@ VERSION = 1  # of the schema
 # Reports on tetrahedra that are of the same class in Python as those on triangles.
 SAME_CLASS = {"TetOptimizeReport": "OptimizeReport", "TetFieldFrame": "FieldFrame"}
 # Reports that only the program has, and reports that npm has not.
-PROGRAM_ALONE = {"Outcome", "Verdict", "Operators", "TetOperators", "ColumnCounts"}
+PROGRAM_ALONE = {"Outcome", "Verdict", "Operators", "TetOperators", "ColumnCounts", "SurfaceQuality", "SurfaceOptimizeReport", "SurfaceExplanation"}
 NOT_IN_NPM = {"TetExplanation", "TetReason", "FaceHeight", "DualExplanation", "DualReason", "DataReport", "DiffusionErrors", "DiffusionMatrices", "ErrorCounts", "ErrorMatrices", "ErrorNorms", "ErrorSystem", "FieldFrame"}
 # Fields that Python adds.
 MORE = {
@@ -221,7 +221,7 @@ def typescript_options(said):
         text += f"\n/** {title}.{meanings} */\nexport type {name} = {' | '.join(json.dumps(word['name']) for word in said[words])};"
     text += "\n\n/** Further options of `optimize`. */\nexport interface OptimizeOptions {\n"
     for row in said["options"]:
-        if row["cells"] == "tetrahedra":
+        if "triangles" not in row["cells"] and row["cells"] != "all":
             continue
         kind = " | ".join(option_value(choice, "choice") for choice in row["choices"]) or {"length_parameter": "LengthParameterLike"}.get(row["kind"], "number")
         default = "null" if row["optional"] and row["default"] == row["absent_name"] else option_value(row["default"], row["kind"])

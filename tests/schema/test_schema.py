@@ -27,7 +27,7 @@ def other_documents(temper, folder):
         best, ("best_weights", file("best.json")),
         ("mesh_report", file("mesh.json")), ("explain", said("explain", "shoe.vtu")), ("explain", said("explain", "square.vtu")),
         ("explain_tetrahedra", said("explain", "tet.mesh")), ("explain_duals", said("explain", "in.vtu", "--for", "vertex")),
-        ("explain_duals", said("explain", "tet.mesh", "--for", "cell")),
+        ("explain_duals", said("explain", "tet.mesh", "--for", "cell")), ("explain_surface", said("explain", "surface.obj")),
         proof, ("weights", said("weights", "in.vtu", "-o", "w.vtu", "--mode", "elastic", "--connectivity", "search", exit=None)),
         ("weights", said("weights", "shoe.vtu", "--mode", "margin", "--connectivity", "search", "--certificate", "all.json", exit=6)),
         ("connectivity_proof", file("all.json")),
@@ -61,15 +61,19 @@ def main(program, schema_path):
         one = json.loads(temper("check", "in.vtu", "--json", "--require", "outside=0,energy.BH.1=1", exit=3))
         pathlib.Path(folder, "tet.mesh").write_text("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTetrahedra\n1\n1 2 3 4 0\nEnd\n", encoding="utf-8")
         tetrahedra = json.loads(temper("check", "tet.mesh", "--json", "--require", "outside=0", exit=3))
-        two = json.loads(temper("check", "in.vtu", "tet.mesh", "--json"))
+        pathlib.Path(folder, "surface.obj").write_text("v 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 0.6 0 2\nv 0 0 -2\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n", encoding="utf-8")
+        surface = json.loads(temper("check", "surface.obj", "--json", "--require", "outside=0", exit=None))
+        two = json.loads(temper("check", "in.vtu", "tet.mesh", "surface.obj", "--json"))
         reports = [report(), report("--set", "objective=accuracy"), report("--require", "regions=2", exit=3),
                    report("--for", "paper", "--set", "max_sweeps=2"), report("--time-limit", "1e-9", exit=4)]
         temper("optimize", "tet.mesh", "-o", "out.mesh", "--write", "tets.json", "--require", "outside")
         of_tetrahedra = json.loads(pathlib.Path(folder, "tets.json").read_text(encoding="utf-8"))
+        temper("optimize", "surface.obj", "-o", "out.obj", "--write", "surface.json", "--surface-distance", "0.1", "--quiet")
+        of_surface = json.loads(pathlib.Path(folder, "surface.json").read_text(encoding="utf-8"))
         others = other_documents(temper, folder)
 
-    assert len(two) == 2 and one["energy"]["BH"][1] is None and not one["requirements"][1]["met"]
-    documents = [("check", one), ("check_tetrahedra", tetrahedra), *(("report", r) for r in reports), ("report_tetrahedra", of_tetrahedra), *others]
+    assert len(two) == 3 and one["energy"]["BH"][1] is None and not one["requirements"][1]["met"]
+    documents = [("check", one), ("check_tetrahedra", tetrahedra), *(("report", r) for r in reports), ("report_tetrahedra", of_tetrahedra), ("check_surface", surface), ("report_surface", of_surface), *others]
     assert {kind for kind, _ in documents} == set(kinds)
     for found in [two, *(found for _, found in documents)]:
         whole.validate(found)

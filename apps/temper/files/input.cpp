@@ -87,6 +87,17 @@ void load(TetInput& input, const ReadingOptions& options) {
   input.loaded = or_fail(io::make_tet_mesh(input.file, options.executor));
 }
 
+void load(SurfaceInput& input, const ReadingOptions& options) {
+  Expected<io::LoadedSurface> loaded = io::make_surface(input.file, options.fixed_tags);
+  if (!loaded) {
+    InputError error = loaded.error();
+    if (error.code == ErrorCode::zero_area)
+      error.message += fmt::format(". Next: join its corners with temper convert {} --merge RADIUS -o OUT", input.path);
+    throw as_failure(error);
+  }
+  input.loaded = or_fail(std::move(loaded));
+}
+
 template <class Subject>
 InputOf<Subject> made_of(io::MeshFile&& file, const std::string& path, const ReadingOptions& options) {
   if (options.expect) options.expect(Subject::cells);
@@ -107,9 +118,11 @@ io::MeshFile read_file(const std::string& path, const ReadingOptions& options) {
 }  // namespace
 
 AnyInput read_any(const std::string& path, const ReadingOptions& options) {
+  ReadingOptions rest = options;
   io::MeshFile file = read_file(path, options);
+  if (take_to_sphere(file, path, options.projection)) rest.projection.clear();
   return with_subject(cells_of(file), [&](auto subject) -> AnyInput {
-    return made_of<decltype(subject)>(std::move(file), path, options);
+    return made_of<decltype(subject)>(std::move(file), path, rest);
   });
 }
 
@@ -118,7 +131,10 @@ Input make_input(io::MeshFile file, const std::string& path, const ReadingOption
 }
 
 Input read_input(const std::string& path, const ReadingOptions& options) {
-  return make_input(read_file(path, options), path, options);
+  ReadingOptions rest = options;
+  io::MeshFile file = read_file(path, options);
+  if (take_to_sphere(file, path, options.projection)) rest.projection.clear();
+  return make_input(std::move(file), path, rest);
 }
 
 template <class Subject>
@@ -126,8 +142,8 @@ InputOf<Subject> read_like(const InputOf<Subject>& input, const std::string& pat
   AnyInput other = read_any(path, options);
   if (auto* const same = std::get_if<InputOf<Subject>>(&other)) return std::move(*same);
   const CellKinds found = std::visit([](const auto& read) { return cells_of(read.file); }, other);
-  throw Failure(Exit::bad_input,
-                fmt::format("{}: expected {}, as in {}, found {}", path, Subject::elements, input.path, name(found)));
+  throw Failure(Exit::bad_input, fmt::format("{}: expected {}, as in {}, found {}", path, name_of_mesh(Subject::cells),
+                                             input.path, name_of_mesh(found)));
 }
 #define TEMPER_MAKE(S) template InputOf<S> read_like(const InputOf<S>&, const std::string&, const ReadingOptions&);
 TEMPER_EACH_SUBJECT(TEMPER_MAKE)
@@ -261,6 +277,12 @@ void expect_projection_of_outline(const std::string& path, bool geographic, std:
                                p.x, p.y));
   }
   refuse_degrees(path, io::needs_projection(false, "--sphere"));
+}
+
+bool take_to_sphere(io::MeshFile& file, const std::string& path, const std::string& projection) {
+  const bool takes = file.is_surface() && projection.starts_with(io::kOntoSphere);
+  if (takes) take_to_map(file, path, projection);
+  return takes;
 }
 
 void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection) {

@@ -39,7 +39,17 @@ struct InputOf {
 };
 using Input = InputOf<Triangles>;
 using TetInput = InputOf<Tetrahedra>;
-using AnyInput = std::variant<Input, TetInput>;
+using SurfaceInput = InputOf<Surfaces>;
+using AnyInput = std::variant<Input, TetInput, SurfaceInput>;
+/// Calls f with an input that is no surface, for verbs that take no surfaces.
+template <class F>
+void visit_flat(AnyInput& any, const F& f) {
+  std::visit(
+      [&f]<class Subject>(InputOf<Subject>& input) {
+        if constexpr (is_flat_subject<Subject>) f(input);
+      },
+      any);
+}
 
 /// A text file to be read line by line; Failure if it cannot be read, or is a device such as /dev/zero without an end.
 [[nodiscard]] std::ifstream open_text(const std::string& path);
@@ -119,6 +129,9 @@ void expect_projection_of_outline(const std::string& path, bool geographic, std:
 /// The points of a mesh on the chosen map or the sphere; unchanged if none is needed. Failure, with the cure, if they
 /// are in degrees and none is chosen.
 void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection);
+
+/// Takes a surface that is nearly a sphere to the sphere, if the projection says so. False: it does nothing.
+bool take_to_sphere(io::MeshFile& file, const std::string& path, const std::string& projection);
 
 /// Edges that a user names. "all": all inside the mesh; "lines": those on tagged lines and between regions. Otherwise
 /// the path of a file with two vertices per line, in the numbers of the mesh file. Failure when the file cannot be

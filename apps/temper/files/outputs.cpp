@@ -139,7 +139,7 @@ Option& add_write(Command& command, std::vector<std::string>& paths, std::span<c
                              fmt::format("Further files, by suffix: {}.", list_of(kinds)));
   option.cells_of = [kinds](std::string_view path) {
     const OutputKind* const kind = kind_of(kinds, std::string(path));
-    return kind == nullptr ? CellKinds::both : kind->cells;
+    return kind == nullptr ? CellKinds::all : kind->cells;
   };
   return option;
 }

@@ -26,13 +26,13 @@ struct FurtherOutputs {
 struct OutputKind {
   std::string_view suffixes, what;  ///< ".svg .png .pdf", "picture"
   std::string FurtherOutputs::*path;
-  CellKinds cells = CellKinds::both;  ///< cells of the meshes that have it
+  CellKinds cells = CellKinds::all;  ///< cells of the meshes that have it
 };
 inline constexpr OutputKind kReportKind = {".json", "report", &FurtherOutputs::report},
-                            kPageKind = {".html", "page", &FurtherOutputs::page},
+                            kPageKind = {".html", "page", &FurtherOutputs::page, CellKinds::both},
                             kHistoryKind = {".csv", "history", &FurtherOutputs::history},
                             kTraceKind = {".jsonl", "trace", &FurtherOutputs::trace, CellKinds::triangles},
-                            kPictureKind = {".svg .png .pdf", "picture", &FurtherOutputs::picture};
+                            kPictureKind = {".svg .png .pdf", "picture", &FurtherOutputs::picture, CellKinds::both};
 Option& add_write(Command& command, std::vector<std::string>& paths, std::span<const OutputKind> kinds);
 /// ".svg" of "mesh.SVG".
 [[nodiscard]] std::string suffix_of(const std::string& path);

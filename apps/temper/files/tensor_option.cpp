@@ -321,7 +321,7 @@ std::optional<MetricViewOf<Subject>> take_to_metric(InputOf<Subject>& input, con
   template std::optional<S::Pieces> metric_of(const InputOf<S>&, const TensorOption&);                    \
   template std::optional<MetricViewOf<S>> take_to_metric(InputOf<S>&, const TensorOption&);
 // NOLINTEND(bugprone-macro-parentheses)
-TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+TEMPER_EACH_FLAT_SUBJECT(TEMPER_MAKE)
 #undef TEMPER_MAKE
 
 }  // namespace temper::app

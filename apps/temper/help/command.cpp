@@ -288,6 +288,9 @@ Option& Command::option(std::string_view name) { return options_[index_of(name)]
 bool Command::was_given(std::string_view name) const { return !options_[index_of(name)].given.empty(); }
 
 void Command::expect_for(CellKinds cells, const std::string& path) const {
+  if (!fits(cells_, cells))
+    throw Failure(Exit::bad_input, fmt::format("{}: has {}; temper {} takes {}. Next: {}", path, name_of_mesh(cells),
+                                               name_, temper::name(cells_), next_for_others_));
   for (const Option& option : options_) {
     for (const std::string& text : option.given) {
       const bool by_value = fits(option.cells, cells) && option.cells_of;
@@ -295,7 +298,7 @@ void Command::expect_for(CellKinds cells, const std::string& path) const {
       if (fits(kinds, cells)) continue;
       if (option.is_flag() && text == "false") continue;
       refuse_usage(name_,
-                   fmt::format("{} has {}, and {}{} is for {} alone. Next: leave it out", path, temper::name(cells),
+                   fmt::format("{} has {}, and {}{} is for {} alone. Next: leave it out", path, name_of_mesh(cells),
                                long_name(option.names), by_value ? " " + text : "", temper::name(kinds)));
     }
   }

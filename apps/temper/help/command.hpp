@@ -51,8 +51,8 @@ struct Option {
   std::function<std::string()> spell = {};  ///< the default; none: there is none, or default_text says it
   Values values = Values::one;
   bool required = false;
-  bool rare = false;                  ///< left out by --help, not by --help-all
-  CellKinds cells = CellKinds::both;  ///< cells of the meshes that it is for
+  bool rare = false;                 ///< left out by --help, not by --help-all
+  CellKinds cells = CellKinds::all;  ///< cells of the meshes that it is for
   /// The cells that a value is for; none: each value is for all cells of the option.
   std::function<CellKinds(std::string_view text)> cells_of = {};
   /// Values with their meanings, each in a line below the option.
@@ -130,14 +130,18 @@ class Command {
   [[nodiscard]] Option& option(std::string_view name);
   [[nodiscard]] Option& option_at(std::size_t index) { return options_[index]; }
   [[nodiscard]] bool was_given(std::string_view name) const;
-  /// Refuses (bad usage) an option or a value that was given, but is for other cells than the mesh in `path` has.
+  /// The verb is for these kinds of cells alone; `next` says what to do with others.
+  void only_for(CellKinds cells, std::string next) { cells_ = cells, next_for_others_ = std::move(next); }
+  /// Refuses (bad usage) an option or a value that was given, but is for other cells than the mesh in `path` has. Also
+  /// if the verb is.
   void expect_for(CellKinds cells, const std::string& path) const;
 
  private:
   class Parser;
   [[nodiscard]] std::size_t index_of(std::string_view name) const;
 
-  std::string name_, description_, group_;
+  std::string name_, description_, group_, next_for_others_;
+  CellKinds cells_ = CellKinds::all;
   VerbHelp help_;
   std::deque<Option> options_;      // whose references stay good
   std::list<Command> subcommands_;  // the same, of a type that is not complete here

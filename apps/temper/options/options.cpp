@@ -223,7 +223,8 @@ void add_projection(Command& command, std::string& target) {
            "Map from longitude and latitude to meters: stereographic, mercator or transverse-mercator about this "
            "center. Without a center, the middle of the points is used. The mesh that is written has degrees again. "
            "'sphere' makes a mesh of the sphere without a map, with radius 6371000 unless you give R. 'none' uses all "
-           "coordinates as coordinates of a plane.")
+           "coordinates as coordinates of a plane. A curved surface that is nearly a sphere around the origin gets its "
+           "points on the sphere, by default of their own radius.")
       .cells = CellKinds::triangles;
 }
 

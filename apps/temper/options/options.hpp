@@ -85,7 +85,7 @@ template <class T>
 struct Choice {
   std::string_view name;
   T value;
-  CellKinds cells = CellKinds::both;  ///< cells of the meshes that it is for
+  CellKinds cells = CellKinds::all;  ///< cells of the meshes that it is for
 };
 
 /// The choices of --cells.
@@ -109,7 +109,7 @@ Option& add_choice(Command& command, const std::string& name, const Choice<T> (&
   Option& option = add_name(command, name, names, use_name, description);
   option.cells_of = [table](std::string_view text) {
     const auto chosen = std::ranges::find(table, text, &Choice<T>::name);
-    return chosen == table.end() ? CellKinds::both : chosen->cells;
+    return chosen == table.end() ? CellKinds::all : chosen->cells;
   };
   return option;
 }

@@ -57,7 +57,7 @@ std::vector<Key> keys_of(CellKinds kind) {
   std::vector<Key> keys;
   with_subject(kind, [&]<class Subject>(Subject) {
     for (const auto& row : Subject::measures()) keys.push_back({row.key, row.alias, row.better, row.count, row.wanted});
-    if constexpr (requires(typename Subject::Quality quality) { quality.energy; }) {
+    if constexpr (std::is_same_v<Subject, Triangles>) {
       for (const EnergyKey& energy : energy_keys())
         keys.push_back({energy.key, {}, Preference::less, false, std::nullopt, true});
     }
@@ -129,7 +129,7 @@ template <class AnyQuality>
 double value_of(const std::string& key, const AnyQuality& quality, Criterion criterion) {
   if (key == kBad) return static_cast<double>(violations(quality, criterion));
   if (const auto* measure = find_row(SubjectOf<AnyQuality>::measures(), key)) return measure->of(quality);
-  if constexpr (requires { quality.energy; }) {
+  if constexpr (std::is_same_v<AnyQuality, Quality>) {
     for (const EnergyKey& energy : energy_keys()) {
       if (energy.key == key) return quality.energy[energy.row][energy.star];
     }
@@ -157,7 +157,12 @@ bool contradict(const Requirement& a, const Requirement& b) {
 /// The keys and short names of fields of reports, as a sentence of the help.
 std::string requirement_keys(CellKinds kind) {
   std::string text = kind == kEachKind[0] ? "Keys: " : fmt::format("Keys for {}: ", name(kind));
-  const std::vector<Key> keys = keys_of(kind);
+  const std::vector<Key> keys = keys_of(kind), first = keys_of(kEachKind[0]);
+  const bool is_known = std::ranges::all_of(
+      keys, [&](const Key& each) { return std::ranges::find(first, each.key, &Key::key) != first.end(); });
+  if (kind != kEachKind[0] && is_known)
+    return text + fmt::format("those of {} from {} to {}, and bad. ", name(kEachKind[0]), keys.front().key,
+                              keys[keys.size() - 2].key);
   for (const Key& each : keys) {
     if (each.energy || each.key == kBad) continue;
     text += each.key;

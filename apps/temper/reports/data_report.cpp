@@ -46,13 +46,12 @@ void add_data_rules(Command& command, DataWords& words) {
       target.push_back(text);
       if (const auto rules = io::parse_data_rules(target, of); !rules) throw BadValue(rules.error().message);
     };
-    command
-        .add({.names = name,
-              .value_name = "RULE[=NAME]",
-              .sentence = sentence,
-              .take = take,
-              .values = Values::repeated})
-        .default_text = usual;
+    Option& added = command.add(
+        {.names = name, .value_name = "RULE[=NAME]", .sentence = sentence, .take = take, .values = Values::repeated});
+    added.default_text = usual;
+    added.cells_of = [](std::string_view rule) {
+      return rule.starts_with("conserve") ? CellKinds::both : CellKinds::all;
+    };
   };
   option(
       words.of_points, io::DataOf::points, "--point-data", "interpolate",

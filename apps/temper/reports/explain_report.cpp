@@ -236,7 +236,7 @@ std::string_view dual_name(Criterion criterion, DualKind kind) {
 template <class Subject>
 std::string paragraph(const InputOf<Subject>& input, const DualReason& reason, Criterion criterion, std::size_t number,
                       const TextStyle& style) {
-  const std::string third = Subject::dimension == 2 ? "" : fmt::format(", {:.9g}", reason.at.z);
+  const std::string third = Subject::cells == CellKinds::triangles ? "" : fmt::format(", {:.9g}", reason.at.z);
   const bool is_edge = reason.vertices.size() == 2;
   const auto name = [&](VertexId v) { return input.vertex_number(v); };
   return place_text(number, fmt::format("{:.9g}, {:.9g}{}", reason.at.x, reason.at.y, third)) +
@@ -315,6 +315,35 @@ std::string explanation_text(const tets::Explanation& e, const TetInput& input, 
   for (std::size_t i = 0; i < shown; ++i) text += paragraph(input, e.reasons[i], i + 1, style);
   text += rest(shown, e.bad);
   return text;
+}
+
+std::string explanation_text(const surfaces::Explanation& e, const SurfaceInput& input, std::size_t /*limit*/,
+                             const TextStyle& style) {
+  std::string text = fmt::format("{}: {}\n", input.path, well_centered<Surfaces>(e.bad, e.triangles));
+  if (e.bad == 0) return text;
+  text += on_weights<Surfaces>(e.verdict, e.changed, input.mesh().n_vertices(), e.margin);
+  const auto name = [&](VertexId v) { return input.vertex_number(v); };
+  for (std::size_t i = 0; i < e.worst.size(); ++i) {
+    const WorstTriangle& worst = e.worst[i];
+    const auto [a, b, c] = input.mesh().points(worst.triangle);
+    const Vec3 at = (1.0 / 3) * (a.position() + b.position() + c.position());
+    text +=
+        (i == 0 ? "\nThe worst first\n" : "") +
+        place_text(i + 1, fmt::format("{:.9g}, {:.9g}, {:.9g}", at.x, at.y, at.z)) +
+        answer("what",
+               fmt::format("Triangle {} ({}): h/l {:.4g}, largest angle {:.4g}.", input.element_number(worst.triangle),
+                           input.vertex_numbers(worst.vertices, " "), worst.h_over_l, worst.angle_deg),
+               style) +
+        answer("why", renumber(worst.why, name) + ".", style);
+  }
+  return text + rest(e.worst.size(), e.bad) +
+         fmt::format("Next: {} -o OUT\n", command_line("optimize", input.path, {}));
+}
+
+std::string explanation_json(const surfaces::Explanation& e, const SurfaceInput& input) {
+  Json json = {{"schema", kSchema}};
+  json.update(json_of(e, input.points));
+  return dump(json);
 }
 
 std::string explanation_json(const tets::Explanation& e, const TetInput& input) {

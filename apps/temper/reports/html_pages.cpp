@@ -98,7 +98,7 @@ std::string optimize_html(const RunPage<Subject>& page) {
 #define TEMPER_MAKE(S)                                                                       \
   template std::string check_html(const std::string&, const InputOf<S>&, const S::Quality&); \
   template std::string optimize_html(const RunPage<S>&);
-TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+TEMPER_EACH_FLAT_SUBJECT(TEMPER_MAKE)
 #undef TEMPER_MAKE
 
 }  // namespace temper::app

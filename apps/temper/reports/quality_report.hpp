@@ -81,11 +81,15 @@ template <class MeshOrQuality>
 [[nodiscard]] std::size_t count_quadrilaterals(const Mesh& mesh);
 /// "4 of these triangles are halves of 2 quadrilaterals", a line; empty if there are none.
 [[nodiscard]] std::string halves_text(const Mesh& mesh);
-[[nodiscard]] inline std::string halves_text(const tets::TetMesh& /*mesh*/) { return {}; }
+template <class Mesh>
+[[nodiscard]] std::string halves_text(const Mesh& /*mesh*/) {
+  return {};
+}
 
 /// Takes the places in a report from the map of a file to its degrees.
 void show_places_of_file(Quality& quality, const Input& input);
-inline void show_places_of_file(const tets::Quality& /*quality*/, const TetInput& /*input*/) {}
+template <class AnyQuality, class AnyInputOf>
+void show_places_of_file(const AnyQuality& /*quality*/, const AnyInputOf& /*input*/) {}
 
 // Reports as JSON, for programs. Infinite energies are null. Vertices and triangles count from 0, in the order of the
 // file's arrays (points[i] of any reader), not in the numbers of a format.

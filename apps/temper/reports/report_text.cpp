@@ -20,8 +20,8 @@ constexpr std::size_t kRangeColumns = 12;
 constexpr std::size_t kBarColumns = 10;
 constexpr std::size_t kPanelGap = 3;
 
-template <class Report>
-std::string measure_text(const MeasureRow<Report>& measure, const Report& quality) {
+template <class Row, class Report>
+std::string measure_text(const Row& measure, const Report& quality) {
   const double value = measure.of(quality);
   return measure.count ? fmt::format("{}", static_cast<std::size_t>(value)) : fmt::format("{:.6g}", value);
 }
@@ -51,6 +51,7 @@ std::string energy_table(const Quality& quality, const TextStyle& style) {
 }
 
 std::string energy_table(const tets::Quality& /*quality*/, const TextStyle& /*style*/) { return {}; }
+std::string energy_table(const surfaces::Quality& /*quality*/, const TextStyle& /*style*/) { return {}; }
 
 /// A bar of count / most of the full width; a count other than 0 always shows something.
 std::string bar(std::size_t count, std::size_t most, const TextStyle& style) {
@@ -133,6 +134,16 @@ std::string why_text(const std::string& why, const std::function<std::string(Ver
 std::string place_text(Vec2 at) { return fmt::format("{:.9g} {:.9g}", at.x, at.y); }
 std::string place_text(Vec3 at) { return fmt::format("{:.9g} {:.9g} {:.9g}", at.x, at.y, at.z); }
 
+/// The place of a bad element. Reports on surfaces have two coordinates of it alone.
+template <class Subject, class Place>
+Place shown_place(const InputOf<Subject>& /*input*/, typename Subject::Element /*element*/, const Place& at) {
+  return at;
+}
+Vec3 shown_place(const SurfaceInput& input, TriangleId t, Vec2 /*at*/) {
+  const auto [a, b, c] = input.mesh().points(t);
+  return (1.0 / 3) * (a.position() + b.position() + c.position());
+}
+
 template <class Subject>
 std::string worst_text(const typename Subject::Quality& quality, const InputOf<Subject>& input,
                        const TextStyle& style) {
@@ -140,7 +151,8 @@ std::string worst_text(const typename Subject::Quality& quality, const InputOf<S
   std::string text = fmt::format("\nworst {}\n", Subject::elements);
   for (const auto& [element, vertices, at, h_over_l, angle, why] : quality.worst) {
     text += fmt::format("  {} ({}) at {}: h/l {:.4g}, largest {} {:.5g}\n", input.element_number(element),
-                        input.vertex_numbers(vertices, " "), place_text(at), h_over_l, Subject::angle, angle);
+                        input.vertex_numbers(vertices, " "), place_text(shown_place(input, element, at)), h_over_l,
+                        Subject::angle, angle);
     text += why_text(
         why, [&input](VertexId v) { return input.vertex_number(v); }, style);
   }
@@ -166,6 +178,12 @@ std::vector<BriefRow<tets::Quality>> further_rows(const tets::Quality& /*quality
            [](const Q& q) { return fmt::format("{:.1f} %", 100 * q.completely_well_centered_fraction); }},
           {"transmissibility, max/median", [](const Q& q) { return brief_number(q.max_transmissibility_over_median); }},
           {"dihedral angles (degrees)", [](const Q& q) { return range(q.min_dihedral_deg, q.max_dihedral_deg); }}};
+}
+std::vector<BriefRow<surfaces::Quality>> further_rows(const surfaces::Quality& /*quality*/) {
+  using Q = surfaces::Quality;
+  return {{"least margin", [](const Q& q) { return brief_number(std::min(q.min_h_over_l, q.min_d_over_l)); }},
+          {"transmissibility, max/median", [](const Q& q) { return brief_number(q.max_transmissibility_over_median); }},
+          {"angles (degrees)", [](const Q& q) { return range(q.min_angle_deg, q.max_angle_deg); }}};
 }
 std::vector<BriefRow<Quality>> further_rows(const Quality& /*quality*/) {
   using Q = Quality;

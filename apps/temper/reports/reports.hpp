@@ -77,6 +77,8 @@ struct TetDecRecord {
 /// Counts, then one paragraph per reason of the explanation, which has at most `limit`.
 [[nodiscard]] std::string explanation_text(const tets::Explanation& explanation, const TetInput& input,
                                            std::size_t limit, const TextStyle& style);
+[[nodiscard]] std::string explanation_text(const surfaces::Explanation& explanation, const SurfaceInput& input,
+                                           std::size_t limit, const TextStyle& style);
 /// The number of violations, then one paragraph per reason.
 template <class Subject>
 [[nodiscard]] std::string explanation_text(const DualExplanation& explanation, const InputOf<Subject>& input,
@@ -87,6 +89,7 @@ template <class Subject>
 [[nodiscard]] std::string explanation_json(const Explanation& explanation, const Input& input,
                                            const CopyNumbers& numbers);
 [[nodiscard]] std::string explanation_json(const tets::Explanation& explanation, const TetInput& input);
+[[nodiscard]] std::string explanation_json(const surfaces::Explanation& explanation, const SurfaceInput& input);
 
 // The reports of `temper weights`: text for people, and JSON.
 
@@ -114,6 +117,8 @@ struct WeightsRecord {
 [[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const Input& input, const Mesh& mesh);
 [[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const TetInput& input,
                                           const tets::TetMesh& mesh);
+[[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const SurfaceInput& input,
+                                          const surfaces::SurfaceMesh& mesh);
 /// The triangle of a height.
 [[nodiscard]] TriangleId triangle_of(const Mesh& mesh, const WeightConstraint& constraint);
 

@@ -80,9 +80,9 @@ void add_all(Tables& tables) {
 
 Json json_of_reports() {
   Tables tables;
-  add_all<Quality, tets::Quality, OptimizeReport, tets::OptimizeReport, Progress, TraceEvent, io::DataReport, Outcome,
-          Verdict, DecSummary, tets::DecSummary, DecRecord, TetDecRecord, ExplanationReport, tets::ExplanationReport,
-          DualExplanation>(tables);
+  add_all<Quality, tets::Quality, surfaces::Quality, OptimizeReport, tets::OptimizeReport, surfaces::SurfaceReport,
+          Progress, TraceEvent, io::DataReport, Outcome, Verdict, DecSummary, tets::DecSummary, DecRecord, TetDecRecord,
+          ExplanationReport, tets::ExplanationReport, surfaces::Explanation, DualExplanation>(tables);
 #ifdef TEMPER_WITH_ERRORS
   add_all<ErrorReport, tets::ErrorReport, DiffusionErrors>(tables);
 #endif

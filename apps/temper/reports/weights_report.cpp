@@ -227,17 +227,39 @@ std::string constraint_text(const WeightConstraint& c, const TetInput& input, co
   return fmt::format("dual length of face {} between vertices {} and {}", face, number(c.s), number(c.t));
 }
 
-std::string constraint_text(const WeightConstraint& c, const Input& input, const Mesh& mesh) {
+namespace {
+
+double angle_at(const Mesh& mesh, const WeightConstraint& c) {
+  return corner_angle(mesh.space(), mesh.point(c.r), mesh.point(c.p), mesh.point(c.q));
+}
+double angle_at(const surfaces::SurfaceMesh& mesh, const WeightConstraint& c) {
+  const Vec3 at = mesh.position(c.r), p = mesh.position(c.p) - at, q = mesh.position(c.q) - at;
+  return std::atan2(length(cross(p, q)), dot(p, q));
+}
+const Mesh& connectivity_of(const Mesh& mesh) { return mesh; }
+const Mesh& connectivity_of(const surfaces::SurfaceMesh& mesh) { return mesh.connectivity(); }
+
+template <class Subject>
+std::string text_of_constraint(const WeightConstraint& c, const InputOf<Subject>& input,
+                               const typename Subject::Mesh& mesh) {
   const std::string p = input.vertex_number(c.p), q = input.vertex_number(c.q);
   if (c.kind == Kind::crossing) return fmt::format("d of edge {}-{} from vertex {}", p, q, p);
   if (c.kind == Kind::dual) {
     return fmt::format("dual length of edge {}-{} between vertices {} and {}", p, q, input.vertex_number(c.r),
                        input.vertex_number(c.s));
   }
-  const double angle =
-      corner_angle(mesh.space(), mesh.point(c.r), mesh.point(c.p), mesh.point(c.q)) * 180 / std::numbers::pi;
   return fmt::format("h over edge {}-{} in triangle {} (angle of {:.1f} degrees at vertex {})", p, q,
-                     input.element_number(triangle_of(mesh, c)), angle, input.vertex_number(c.r));
+                     input.element_number(triangle_of(connectivity_of(mesh), c)),
+                     angle_at(mesh, c) * 180 / std::numbers::pi, input.vertex_number(c.r));
+}
+
+}  // namespace
+
+std::string constraint_text(const WeightConstraint& c, const Input& input, const Mesh& mesh) {
+  return text_of_constraint<Triangles>(c, input, mesh);
+}
+std::string constraint_text(const WeightConstraint& c, const SurfaceInput& input, const surfaces::SurfaceMesh& mesh) {
+  return text_of_constraint<Surfaces>(c, input, mesh);
 }
 
 std::string weights_text(const WeightsRecord& r) {

@@ -203,8 +203,10 @@ class Checks {
     print_warnings(input.warnings());
     typename Subject::Quality measured = measure(input);
     const std::vector<Outcome> outcomes = judge(requirements, measured, criterion_);
-    if (!files_.page.empty())
-      outputs_.write_text(files_.page, check_html(command_line(command_, {input.path}), input, measured));
+    if constexpr (is_flat_subject<Subject>) {
+      if (!files_.page.empty())
+        outputs_.write_text(files_.page, check_html(command_line(command_, {input.path}), input, measured));
+    }
     show_places_of_file(measured, input);
     const Verdict verdict = {s_.target, criterion_, violations(measured, criterion_)};
     report(input.path, outcomes, check_json(input.path, measured, input.points, verdict, outcomes),
@@ -229,6 +231,7 @@ class Checks {
     if (view) as_in_file(measured, *view);
     return measured;
   }
+  [[nodiscard]] surfaces::Quality measure(SurfaceInput& input) const { return quality(input.mesh(), s_.worst); }
   /// Prints or keeps the report, writes it where --write asks for it, and gives the verdict on the requirements.
   void report(const std::string& path, const std::vector<Outcome>& outcomes, const std::string& json,
               const std::string& text) {

@@ -64,7 +64,8 @@ void add_options(Command& command, DrawSettings& s) {
         s.options.view = Vec2{v[0], v[1]};
       },
       "Center of the picture of a sphere, in degrees. The half of the sphere nearest to it is drawn. If you do not "
-      "give it: the middle of a mesh that covers a part of the sphere, else 0,0.");
+      "give it: the middle of a mesh that covers a part of the sphere, else 0,0. A curved surface is seen from this "
+      "direction, by default from -60,30.");
   command.add_flag("--no-primal", s.no_primal, "Leave out the edges of triangles.");
   command.add_flag("--no-dual", s.no_dual, "Leave out the dual edges, which connect orthocenters.");
   command.add_flag("--no-rings", s.no_rings, "Do not mark vertices that nearly coincide with a neighbor.");
@@ -78,7 +79,7 @@ void add_options(Command& command, DrawSettings& s) {
            "'quality' is the least of h/l, d/l and 1 - d/l. 'angle' is the largest angle. 'size' is the mean length of "
            "the edges. 'region' is the number of the region. NAME is data of triangles or points in the files.")
       .cells_of = [](std::string_view color) {
-    return color.empty() || color == "none" ? CellKinds::both : CellKinds::triangles;
+    return color.empty() || color == "none" ? CellKinds::all : CellKinds::triangles;
   };
   add_choice(
       command, "--cells", kCellsOf, [&s](CellsOf value) { s.cells = value; },
@@ -97,7 +98,7 @@ void add_options(Command& command, DrawSettings& s) {
   add_number(command, "--width", s.options.width, kPositive, "Width of one panel, in CSS pixels.");
   add_text(command, "--title", "TEXT", s.options.title, "Title above the picture.");
   for (const char* name : {"--view", "--no-dual", "--no-rings", "--weights", "--numbers", "--weight-scale"})
-    command.option(name).cells = CellKinds::triangles;
+    command.option(name).cells = std::string_view(name) == "--view" ? CellKinds::all_triangles : CellKinds::triangles;
   command.group("Help");
   command.add_help({"IN -o FILE [options]",
                     "  temper draw in.vtu -o mesh.svg\n"
@@ -202,11 +203,16 @@ void check_zoom(const DrawOptions& options) {
   refuse_usage("draw", "--zoom: it must have x0 < x1 and y0 < y1");
 }
 
-void check_view(const DrawOptions& options, const Input& input) {
+void expect_direction(const DrawOptions& options) {
   if (!options.view) return;
   if (!(std::abs(options.view->x) <= 360) || !(std::abs(options.view->y) <= 90)) {
     refuse_usage("draw", "--view: expected a longitude from -360 to 360 and a latitude from -90 to 90");
   }
+}
+
+void check_view(const DrawOptions& options, const Input& input) {
+  if (!options.view) return;
+  expect_direction(options);
   if (!input.mesh().space().is_plane()) return;
   throw Failure(Exit::bad_usage,
                 fmt::format("{}: --view: the mesh is in a plane; expected a mesh of the sphere", input.path));
@@ -278,6 +284,14 @@ std::string picture(const DrawSettings& s, const TetInput& input, const TetInput
   const tets::Plane plane = plane_of(s, input.mesh());
   return before == nullptr ? draw_svg(input.mesh(), plane, options, pieces)
                            : draw_before_after_svg(before->mesh(), input.mesh(), plane, options, pieces);
+}
+
+std::string picture(const DrawSettings& s, const SurfaceInput& input, const SurfaceInput* before) {
+  expect_direction(s.options);
+  DrawOptions options = s.options;
+  options.fill = s.color != "none";
+  return before == nullptr ? draw_svg(input.mesh(), options)
+                           : draw_before_after_svg(before->mesh(), input.mesh(), options);
 }
 
 template <class Subject>

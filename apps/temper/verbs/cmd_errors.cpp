@@ -208,6 +208,7 @@ Exit run_errors(const Arguments& arguments) {
       "orthocenters. It also describes their matrices. The page docs/reference/errors.md defines every number.");
   ErrorSettings s;
   add_options(command, s);
+  command.only_for(CellKinds::both, "temper operators IN -o DIR writes the stars, to compare with known solutions");
   if (!command.parse(arguments)) return Exit::done;
   check_fields({.fields = separated(s.fields)});
   Outputs outputs("errors");
@@ -222,11 +223,11 @@ Exit run_errors(const Arguments& arguments) {
     if (s.problem.given()) expect_no_fields(command);
   };
   AnyInput any = read_any(s.input, {s.projection, {}, threads.get(), s.heights, expect});
-  std::visit([](const auto& input) { print_warnings(input.warnings()); }, any);
+  visit_flat(any, [](const auto& input) { print_warnings(input.warnings()); });
   if (s.problem.given()) {
     report_problem(command, s, std::get<Input>(any), threads.get());
   } else {
-    std::visit([&](auto& input) { report_fields(s, input, outputs, threads.get()); }, any);
+    visit_flat(any, [&](auto& input) { report_fields(s, input, outputs, threads.get()); });
   }
   return Exit::done;
 }

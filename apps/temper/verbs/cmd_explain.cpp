@@ -74,6 +74,14 @@ class Counter {
 };
 
 using TetView = MetricViewOf<Tetrahedra>;
+/// A mesh in its metrics; nothing for kinds of cells without tensors.
+template <class Subject>
+using ViewOf = std::conditional_t<is_flat_subject<Subject>, std::optional<MetricViewOf<Subject>>, std::nullopt_t>;
+
+surfaces::Explanation explained(const ExplainSettings& s, const SurfaceInput& input, std::nullopt_t /*view*/) {
+  return or_fail(
+      surfaces::explain(input.mesh(), *clp_solver(), s.json ? input.mesh().n_triangles() : s.limit, s.whole));
+}
 
 tets::Explanation explained(const ExplainSettings& s, const TetInput& input, const std::optional<TetView>& view) {
   tets::ExplainOptions options = {.whole = s.whole};
@@ -114,7 +122,7 @@ Explanation explained(const ExplainSettings& s, const Input& input, const std::o
 /// The violations of a criterion of duals, with places of the file.
 template <class Subject>
 DualExplanation explained_duals(const ExplainSettings& s, const InputOf<Subject>& input, Criterion criterion,
-                                const std::optional<MetricViewOf<Subject>>& view) {
+                                const ViewOf<Subject>& view) {
   const std::size_t most = s.json ? static_cast<std::size_t>(-1) : s.limit;
   DualExplanation explanation = explain_duals(input.mesh(), criterion, most);
   for (DualReason& reason : explanation.reasons) {
@@ -122,7 +130,8 @@ DualExplanation explained_duals(const ExplainSettings& s, const InputOf<Subject>
       const TriangleId t = Mesh::triangle(input.mesh().outgoing(reason.vertices.front()));
       const Vec2 at = place_of(input, view, t, {reason.at.x, reason.at.y});
       reason.at = {at.x, at.y, 0};
-    } else if (view) {
+    } else if constexpr (std::is_same_v<Subject, Tetrahedra>) {
+      if (!view) continue;
       const tets::TetId t = input.mesh().incident(reason.vertices.front());
       reason.at = view->pieces.metric(t).from_metric(reason.at);
     }
@@ -137,9 +146,12 @@ std::string json_of_explanation(const tets::Explanation& e, const TetInput& inpu
   return explanation_json(e, input);
 }
 
+std::string json_of_explanation(const surfaces::Explanation& e, const SurfaceInput& input, std::nullopt_t /*view*/) {
+  return explanation_json(e, input);
+}
+
 template <class Subject>
-void print_explanation(const ExplainSettings& s, const InputOf<Subject>& input,
-                       const std::optional<MetricViewOf<Subject>>& view) {
+void print_explanation(const ExplainSettings& s, const InputOf<Subject>& input, const ViewOf<Subject>& view) {
   if (const Criterion criterion = criterion_of_target(s.target); criterion != Criterion::well_centered) {
     const DualExplanation explanation = explained_duals(s, input, criterion, view);
     if (s.json) return print_data(explanation_json(explanation, input.points));
@@ -175,7 +187,10 @@ Exit run_explain(const Arguments& arguments) {
       [&]<class Subject>(InputOf<Subject>& input) {
         expect_target_for("explain", input.path, s.target, Subject::cells);
         print_warnings(input.warnings());
-        print_explanation(s, input, take_to_metric(input, s.tensor));
+        if constexpr (is_flat_subject<Subject>)
+          print_explanation(s, input, take_to_metric(input, s.tensor));
+        else
+          print_explanation(s, input, std::nullopt);
       },
       any);
   return Exit::done;

@@ -210,6 +210,22 @@ void write(const Command& command, const DecSettings& s, TetInput& input, const 
   s.json ? print_data(dec_json(record)) : print(dec_text(record));
 }
 
+void write(const Command& command, const DecSettings& s, SurfaceInput& input, const std::vector<io::DecFormat>& formats,
+           Executor* executor) {
+  const surfaces::SurfaceMesh& mesh = input.mesh();
+  const DecComplex complex = with_k(command, s, input, dec_operators(mesh));
+  const DecSummary summary = summarize(mesh, complex);
+  const PowerCells cells = dual_cells(mesh, complex);
+  DecRecord record = {s.input, summary, cells, nullptr, {}};
+  warn(s, record);
+  io::DecWriteOptions options;
+  options.formats = formats;
+  options.points = input.points;
+  options.executor = executor;
+  record.files = or_fail(io::write_dec(s.output, mesh, complex, options));
+  s.json ? print_data(dec_json(record)) : print(dec_text(record));
+}
+
 /// The warning that operators have the halves of quadrilaterals.
 void warn_of_halves(const Input& input) {
   const std::size_t n = count_quadrilaterals(input.mesh());
@@ -268,7 +284,7 @@ Exit run_operators(const Arguments& arguments) {
     command.expect_for(cells, s.input);
     if (cells == Tetrahedra::cells)
       check_folder(s, formats, io::DecKind::tetrahedra);
-    else
+    else if (cells == Triangles::cells)
       check_layers(command, s, formats);
   };
   AnyInput any = read_any(s.input, {s.projection, {}, threads.get(), s.heights, expect});

@@ -24,6 +24,12 @@
 namespace temper::app {
 namespace {
 
+/// Writes the page, for the kinds that have one.
+template <class Subject>
+void write_page(const std::string& path, const RunPage<Subject>& page, Outputs& outputs) {
+  if constexpr (is_flat_subject<Subject>) outputs.write_text(path, optimize_html(page));
+}
+
 /// Writes the report and the page.
 template <class Subject>
 void write_reports(const Command& command, const OptimizeSettings& s, const InputOf<Subject>& input,
@@ -42,8 +48,7 @@ void write_reports(const Command& command, const OptimizeSettings& s, const Inpu
                                      results.errors_json};
   if (!s.files.report.empty()) outputs.write_text(s.files.report, optimize_json(record));
   if (!s.files.page.empty())
-    outputs.write_text(s.files.page,
-                       optimize_html(RunPage<Subject>{record, input, *results.original, *results.improved}));
+    write_page(s.files.page, RunPage<Subject>{record, input, *results.original, *results.improved}, outputs);
 }
 
 /// Writes the mesh first, as it took the most time.

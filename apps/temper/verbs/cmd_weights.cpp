@@ -86,15 +86,15 @@ const std::vector<ConstraintsInfo>& all_constraints() {
   return all;
 }
 
-/// The cells that have these constraints: one kind, or all.
+/// The cells that have these constraints.
 CellKinds cells_of(std::string_view constraints) {
-  std::vector<CellKinds> kinds;
+  auto kinds = CellKinds();
   for (const CellKinds kind : kEachKind) {
     for (const ConstraintsInfo& row : constraints_of(kind)) {
-      if (option_name(row.constraints) == constraints) kinds.push_back(kind);
+      if (option_name(row.constraints) == constraints) kinds = kinds | kind;
     }
   }
-  return kinds.size() == 1 ? kinds.front() : CellKinds::both;
+  return kinds;
 }
 
 const ConstraintsInfo& row_of(std::span<const ConstraintsInfo> rows, Constraints constraints) {
@@ -109,6 +109,7 @@ void add_conditions(Command& command, WeightsSettings& s) {
   }();
   std::string text = "Constraints on the weights, with margin t and ";
   for (const CellKinds kind : kEachKind) {
+    if (kind != kEachKind[0] && constraints_of(kind).data() == constraints_of(kEachKind[0]).data()) continue;
     const std::string_view length = with_subject(kind, [](auto subject) { return subject.length_of_constraints; });
     text += kind == kEachKind[0] ? fmt::format("{}.", length) : fmt::format(" For {}, with {}:", name(kind), length);
     for (const ConstraintsInfo& row : constraints_of(kind))
@@ -312,10 +313,16 @@ io::AnyCertificate read_certificate(const std::string& path, const io::VertexOfP
 // These functions differ between the kinds of cells.
 
 Space space_of(const Mesh& mesh) { return mesh.space(); }
-Space space_of(const tets::TetMesh& /*mesh*/) { return {}; }
+template <class SpaceMesh>
+Space space_of(const SpaceMesh& /*mesh*/) {
+  return {};
+}
 
 std::function<TriangleId(const WeightConstraint&)> triangles_of(const Mesh& mesh) {
   return [&mesh](const WeightConstraint& c) { return triangle_of(mesh, c); };
+}
+std::function<TriangleId(const WeightConstraint&)> triangles_of(const surfaces::SurfaceMesh& mesh) {
+  return triangles_of(mesh.connectivity());
 }
 std::function<TriangleId(const WeightConstraint&)> triangles_of(const tets::TetMesh& /*mesh*/) { return {}; }
 
@@ -329,22 +336,32 @@ CertificateCheck check_of(const WeightsSettings& s, const Mesh& mesh, const Conn
                                              "the mesh for which it was written",
                                              s.check));
 }
-CertificateCheck check_of(const WeightsSettings& s, const tets::TetMesh& /*mesh*/, const ConnectivityProof& /*proof*/) {
-  throw Failure(Exit::bad_input, fmt::format("{}: proofs over connectivities are for triangles alone. Next: give the "
-                                             "mesh for which it was written",
-                                             s.check));
+template <class SpaceMesh>
+CertificateCheck check_of(const WeightsSettings& s, const SpaceMesh& /*mesh*/, const ConnectivityProof& /*proof*/) {
+  throw Failure(Exit::bad_input,
+                fmt::format("{}: proofs over connectivities are for triangles of the plane alone. Next: give the "
+                            "mesh for which it was written",
+                            s.check));
+}
+
+/// Checks the certificate of a mesh, or of its pieces in metrics.
+template <class Subject, class Checked>
+Exit check_in(const WeightsSettings& s, const InputOf<Subject>& input, const io::VertexOfPoint& vertices,
+              const Checked& mesh) {
+  const io::AnyCertificate any = read_certificate(s.check, vertices, Subject::element);
+  const auto* const certificate = std::get_if<Certificate>(&any);
+  const CertificateCheck found =
+      certificate ? check_certificate(mesh, *certificate) : check_of(s, input.mesh(), std::get<ConnectivityProof>(any));
+  return report_check(s, any, found, Subject::constraints());
 }
 
 template <class Subject>
 Exit check(const WeightsSettings& s, const InputOf<Subject>& input) {
-  const auto pieces = metric_of(input, s.tensor);
-  const io::VertexOfPoint vertices = pieces ? number_copies(input, *pieces).vertices : input.loaded.vertex_of_point;
-  const io::AnyCertificate any = read_certificate(s.check, vertices, Subject::element);
-  const auto* const certificate = std::get_if<Certificate>(&any);
-  const CertificateCheck found = !certificate ? check_of(s, input.mesh(), std::get<ConnectivityProof>(any))
-                                 : pieces     ? check_certificate(*pieces, *certificate)
-                                              : check_certificate(input.mesh(), *certificate);
-  return report_check(s, any, found, Subject::constraints());
+  if constexpr (is_flat_subject<Subject>) {
+    if (const auto pieces = metric_of(input, s.tensor))
+      return check_in(s, input, number_copies(input, *pieces).vertices, *pieces);
+  }
+  return check_in(s, input, input.loaded.vertex_of_point, input.mesh());
 }
 
 /// On the sphere setting a weight rounds the place: only changed weights are set.
@@ -491,6 +508,9 @@ Exit run(WeightsSettings& s, Input& input, Outputs& outputs) {
   if (s.options.constraints == Constraints::regular) s.options.edges = prescribed_edges(s.edges, input);
   const std::optional<ConnectivityReport> search = searched(s, input, *clp_solver());
   return search ? find(s, input, search->mesh, &*search, outputs) : find(s, input, input.mesh(), nullptr, outputs);
+}
+Exit run(WeightsSettings& s, SurfaceInput& input, Outputs& outputs) {
+  return find(s, input, input.mesh(), nullptr, outputs);
 }
 Exit run(const WeightsSettings& s, TetInput& input, Outputs& outputs) {
   if (s.tensor.given()) return find_in_metric(s, input, outputs);

@@ -1,10 +1,11 @@
-// The parts of `temper optimize` that differ between triangles and tetrahedra. cmd_optimize.cpp has the sequence.
+// The parts of `temper optimize` that differ between kinds of cells. cmd_optimize.cpp has the sequence.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "files/input.hpp"
+#include "reports/quality_report.hpp"
 #include "system/system.hpp"
 #include "verbs/optimize_settings.hpp"
 #include "verbs/progress_line.hpp"
@@ -50,14 +51,19 @@ void prepare(const Command& command, OptimizeSettings& settings, const Input& in
              RunResults<Triangles>& results);
 void prepare(const Command& command, const OptimizeSettings& settings, const TetInput& input, const RunFiles& files,
              RunResults<Tetrahedra>& results);
+void prepare(const Command& command, const OptimizeSettings& settings, const SurfaceInput& input, const RunFiles& files,
+             RunResults<Surfaces>& results);
 
 /// Improves and measures. Triangles are improved in place, because memory is scarce on the largest meshes.
 void improve(const OptimizeSettings& settings, Input& input, const RunFiles& files, RunResults<Triangles>& results);
 void improve(const OptimizeSettings& settings, TetInput& input, const RunFiles& files, RunResults<Tetrahedra>& results);
+void improve(const OptimizeSettings& settings, SurfaceInput& input, const RunFiles& files,
+             RunResults<Surfaces>& results);
 
 /// Frees a mesh that the file has, unless something shows it.
 inline void release_mesh(Input& input, RunResults<Triangles>& /*results*/) { input.loaded.mesh = {}; }
-inline void release_mesh(TetInput& input, RunResults<Tetrahedra>& results) {
+template <class Subject>
+void release_mesh(InputOf<Subject>& input, RunResults<Subject>& results) {
   input.loaded.mesh = {};
   results.second = {};
 }
@@ -65,22 +71,26 @@ inline void release_mesh(TetInput& input, RunResults<Tetrahedra>& results) {
 /// The parts of the result in the input.
 [[nodiscard]] inline const auto& parts_of(const OptimizeReport& report) { return report.vertices; }
 [[nodiscard]] inline const auto& parts_of(const BestSoFar& best) { return best.vertices; }
+[[nodiscard]] inline const auto& parts_of(const surfaces::SurfaceReport& report) { return report.vertices; }
 [[nodiscard]] inline const auto& parts_of(const tets::OptimizeReport& report) { return report.origins; }
 [[nodiscard]] inline const auto& parts_of(const tets::BestSoFar& best) { return best.origins; }
 
 /// Weights for each vertex and region go into the file.
 template <class Report>
 void add_corner_weights(const Report& report, io::MeshFile& file) {
-  io::set_corner_weights(file, report.corner_weights);
+  if constexpr (requires { report.corner_weights; }) io::set_corner_weights(file, report.corner_weights);
 }
 
 /// The objective that the run lowered at last.
 [[nodiscard]] inline Objective last_objective(const OptimizeReport& report) { return report.objective; }
-[[nodiscard]] inline Objective last_objective(const tets::OptimizeReport& /*report*/) { return Objective::energy; }
+[[nodiscard]] inline Objective last_objective(const RunReport& /*report*/) { return Objective::energy; }
 
 /// The measures of the mesh that --details adds.
 [[nodiscard]] std::string measures_text(const OptimizeSettings& settings, const RunResults<Triangles>& results);
-[[nodiscard]] std::string measures_text(const OptimizeSettings& settings, const RunResults<Tetrahedra>& results);
+template <class Subject>
+[[nodiscard]] std::string measures_text(const OptimizeSettings& /*settings*/, const RunResults<Subject>& results) {
+  return comparison_text(results.before, results.after);
+}
 
 /// The hooks that all runs have. `line` shows the progress.
 template <class Hooks, class Subject>

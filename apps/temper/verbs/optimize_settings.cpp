@@ -83,7 +83,7 @@ void add_common(Command& command, OptimizeSettings& s) {
       "split.";
   add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
             "Tags or physical names of vertices that keep their positions.")
-      .cells = CellKinds::triangles;
+      .cells = CellKinds::all_triangles;
   add_text(command, "--size", "FILE", s.size, "Mesh file with the target edge length at each of its points.").cells =
       CellKinds::triangles;
   add_flag_of(command, "min_edge", s.assignments).sentence = "Least length of interior edges over the local size.";
@@ -98,6 +98,8 @@ void add_rare(Command& command, OptimizeSettings& s) {
   command.group("Further options");
   add_set(command, s.assignments);
   add_flag_of(command, "change", s.assignments).sentence = "Change all, or only places that lack what TARGET needs.";
+  add_flag_of(command, "surface_distance", s.assignments);
+  add_flag_of(command, "crease_angle", s.assignments);
   add_flag_of(command, "coarsen", s.assignments).sentence =
       "Remove vertices, and keep all triangles well-centered. No removal makes a local size larger than this factor "
       "times the size field.";
@@ -125,7 +127,8 @@ void add_rare(Command& command, OptimizeSettings& s) {
               "Number of threads of each process. 0 uses all threads of the machine, or all that the process may use.");
   add_number(
       command, "--save-every", s.save_every, kNotNegative,
-      "Write the best mesh so far to OUT during the run, at most once in this many seconds. 0 writes every new one.");
+      "Write the best mesh so far to OUT during the run, at most once in this many seconds. 0 writes every new one.")
+      .cells = CellKinds::both;
   for (std::size_t i = first; i < command.options().size(); ++i) command.option_at(i).rare = true;
   for (const char* name : {"--format", "--cells", "--encoding", "--no-triangle-quality"})
     command.option(name).rare = true;
@@ -168,7 +171,8 @@ void expect_one_value(const Assignments& assignments) {
 /// Refuses names that are not for these cells.
 void refuse_others(const std::string& verb, const std::string& input, const Expected<void>& right, CellKinds cells) {
   if (!right)
-    refuse_usage(verb, fmt::format("{} has {}, and {}", input, name(cells), spell_options(right.error().message)));
+    refuse_usage(verb,
+                 fmt::format("{} has {}, and {}", input, name_of_mesh(cells), spell_options(right.error().message)));
 }
 
 }  // namespace

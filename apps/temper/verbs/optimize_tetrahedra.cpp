@@ -90,8 +90,4 @@ void improve(const OptimizeSettings& s, TetInput& input, const RunFiles& files, 
     results.picture = draw_before_after_svg(before.mesh(), after.mesh(), tets::middle_plane(before.mesh()));
 }
 
-std::string measures_text(const OptimizeSettings& /*settings*/, const RunResults<Tetrahedra>& results) {
-  return comparison_text(results.before, results.after);
-}
-
 }  // namespace temper::app
