@@ -209,52 +209,68 @@ bool Guard::allows(std::span<const TriangleId> old, std::span<const Corners> fre
   return after.are_within(limits_->for_steps) || after.hold(around(old), limits_->for_steps);
 }
 
-void Guard::find_link(VertexId v) {
-  old_.clear();
-  for (const HalfedgeId h : mesh_.star(v)) {
-    const HalfedgeId across = mesh_.twin(Mesh::next(h));
-    old_.push_back(Mesh::triangle(h));
-    link_.push_back({mesh_.target(h), mesh_.opposite(h), std::nullopt});
-    if (across.valid()) link_.back().outside = triangle(Mesh::triangle(across));
+void Guard::begin_step() {
+  link_.clear();
+  cells_.reset();
+  if (!on()) return;
+  least_ = limits_->for_steps;
+  knows_star_.fill(false);
+}
+
+/// Fills the triangles of the star: as they are, or after the move.
+void Guard::find_star(std::vector<Triangle>& star, bool moved) const {
+  star.clear();
+  for (const LinkEdge& edge : link_) star.push_back(triangle({moving_, edge.from, edge.to}, moved));
+}
+
+/// Takes the measures of one stage. Pairs are in the star, or with the triangles across the link.
+void Guard::take_stage(GuardValues& v, Stage stage, std::vector<Triangle>& star) {
+  if (stage == alone) {
+    for (const Triangle& t : star) take_alone(v, t, least_);
+    return;
   }
+  if (stage == links) {
+    for (Triangle& t : star) add_cell(t);
+  }
+  const auto take = [&](const Triangle& s, std::size_t k, const Triangle& t) {
+    stage == pairs ? take_pair(v, s, k, t) : take_link(v, s, k, t);
+  };
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    LinkEdge& edge = link_[i];
+    if (i > 0) take(star[i], 0, star[i - 1]);
+    if (!edge.across.valid()) continue;
+    if (!edge.outside) edge.outside = triangle(edge.across);
+    take(star[i], 1, *edge.outside);
+  }
+  if (!mesh_.is_boundary(moving_)) take(star.front(), 0, star.back());
 }
 
-/// Most moves are within the limits, whatever was before.
-bool Guard::star_may_have(const GuardValues& after) {
-  if (after.are_within(least_of_star())) return true;
-  if (star_) return false;
-  star_ = around(old_);
-  star_->take(limits_->for_steps);
-  return after.are_within(*star_);
+/// Says whether the star after the move is within the limits, or not worse than before. Most are within the limits.
+bool Guard::allows_stage(Stage stage) {
+  GuardValues after;
+  take_stage(after, stage, shapes_);
+  if (after.are_within(least_)) return true;
+  if (knows_star_[stage]) return false;
+  knows_star_[stage] = true;
+  find_star(star_, false);
+  GuardValues before;
+  take_stage(before, stage, star_);
+  least_.take(before);
+  return after.are_within(least_);
 }
 
-/// The move changes the triangles of the star. Their pairs are with each other and with the triangles across the link.
-/// A refusal needs one measure, so those that take long come last.
+/// The move changes the triangles of the star. A refusal needs one measure, so those that take long come last.
 bool Guard::allows_move(VertexId v, const WeightedPoint& p) {
   moving_ = v, place_ = p;
   if (has_depth()) there_ = depth_at(p, (*depths_)[v].near);
-  if (link_.empty()) find_link(v);
-  shapes_.clear();
-  GuardValues after;
-  for (const LinkEdge& edge : link_) {
-    shapes_.push_back(triangle({v, edge.from, edge.to}, true));
-    take_alone(after, shapes_.back(), least_of_star());
-  }
-  if (!star_may_have(after)) return false;
-  const auto each_pair = [&](const auto& use) {
-    for (std::size_t i = 0; i < link_.size(); ++i) {
-      if (i > 0) use(shapes_[i], 0, shapes_[i - 1]);
-      if (link_[i].outside) use(shapes_[i], 1, *link_[i].outside);
+  if (link_.empty()) {
+    for (const HalfedgeId h : mesh_.star(v)) {
+      const HalfedgeId across = mesh_.twin(Mesh::next(h));
+      link_.push_back({mesh_.target(h), mesh_.opposite(h), across.valid() ? Mesh::triangle(across) : TriangleId()});
     }
-    if (!mesh_.is_boundary(v)) use(shapes_.front(), 0, shapes_.back());
-  };
-  each_pair([&](const Triangle& s, std::size_t k, const Triangle& t) { take_pair(after, s, k, t); });
-  if (!star_may_have(after)) return false;
-  if (limits_->has_flow) {
-    for (Triangle& t : shapes_) add_cell(t);
-    each_pair([&](const Triangle& s, std::size_t k, const Triangle& t) { take_link(after, s, k, t); });
-    if (!star_may_have(after)) return false;
   }
+  find_star(shapes_, true);
+  if (!allows_stage(alone) || !allows_stage(pairs) || (limits_->has_flow && !allows_stage(links))) return false;
   if (!reads_stars()) return true;
   const GuardValues cells = cells_around(v, true);
   if (cells.are_within(limits_->for_steps)) return true;
@@ -284,7 +300,7 @@ bool Guard::allows(const InsertionPlan& plan) {
 
 void Guard::begin_flips(const Part& part) {
   part_ = part;
-  link_.clear();
+  link_.clear();  // flips that are undone may renumber it
   touched_.clear();
   corners_.clear();
   before_ = {};

@@ -54,7 +54,7 @@ class Guard {
 
   /// Say whether these changes are within the guard: v moves to p, a plan is committed. Call begin_step() before the
   /// moves that one step tries.
-  void begin_step() { link_.clear(), star_.reset(), cells_.reset(); }
+  void begin_step();
   [[nodiscard]] bool allows_move(VertexId v, const WeightedPoint& p);
   [[nodiscard]] bool allows(const RemovalPlan& plan);
   [[nodiscard]] bool allows(const InsertionPlan& plan);
@@ -98,8 +98,11 @@ class Guard {
   /// An edge across from the vertex that moves, with the triangle on its other side, if there is one.
   struct LinkEdge {
     VertexId from, to;
-    std::optional<Triangle> outside;
+    TriangleId across;
+    std::optional<Triangle> outside = {};  ///< once it was needed
   };
+  /// The measures of triangles, of pairs and of flow links are disjoint.
+  enum Stage { alone, pairs, links };
   /// A depth of the field, and the triangle of the field in which it was found.
   struct Depth {
     double value = 0;
@@ -128,10 +131,9 @@ class Guard {
   /// Returns the values of the cells of v and its neighbors.
   [[nodiscard]] GuardValues cells_around(VertexId v, bool moved) const;
   [[nodiscard]] bool allows(std::span<const TriangleId> old, std::span<const Corners> fresh);
-  void find_link(VertexId v);
-  /// Says whether values of the star after a move are within the limits, or not worse than before.
-  [[nodiscard]] bool star_may_have(const GuardValues& after);
-  [[nodiscard]] const GuardValues& least_of_star() const { return star_ ? *star_ : limits_->for_steps; }
+  void find_star(std::vector<Triangle>& star, bool moved) const;
+  void take_stage(GuardValues& v, Stage stage, std::vector<Triangle>& star);
+  [[nodiscard]] bool allows_stage(Stage stage);
   [[nodiscard]] bool has_depth() const { return limits_->depth != nullptr; }
   [[nodiscard]] Depth depth_at(const WeightedPoint& p, TriangleId near) const;
 
@@ -145,7 +147,9 @@ class Guard {
   Depth there_;  // at place_
   // Of the present step, before it.
   std::vector<LinkEdge> link_;
-  std::optional<GuardValues> star_;  // the worse of these and the limits
+  std::vector<Triangle> star_;
+  GuardValues least_;                    // the limits; after the first refusal at a stage, the worse of star and limits
+  std::array<bool, 3> knows_star_ = {};  // by stage, whether least_ has its values
   std::optional<GuardValues> cells_;
   Part part_;                        // of the present step
   std::vector<TriangleId> touched_;  // by flips
