@@ -31,7 +31,9 @@ ELSEWHERE = {
     "nearest": "errors suggest a name", "join": "as nearest", "did_you_mean": "as nearest", "none_of": "as nearest",
     "read_number": "float", "read_by_strtod": "float",
     **dict.fromkeys(["dual_length_sign", "dual_over_length", "is_flat", "doubled_area", "flip_to_regular", "n_bad_triangles",
-                     "find_intrinsic_weights"], "curved surfaces are in C++ alone"),
+                     "find_intrinsic_weights", "make_surface", "closest_places", "dual_cells", "surface_options"],
+                    "curved surfaces are in C++ and the program alone"),
+    "name_of_mesh": "as check_cells",
     "triangle_values": "NumPy, of mesh and dec", "spread": "NumPy", "orient2d": "geometry.orientation",
     "as_vector": "Mesh.weighted_vectors", "as_point": "arrays have three columns", "expect_plane": "functions do it",
     "expect_no_period": "functions do it",
@@ -82,7 +84,7 @@ ELSEWHERE = {
 
 # Struct in C++, class in Python, fields that have another name or place there.
 STRUCTS = {
-    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "tensor", "triangle_tensors", "tetrahedra_tensors", "corner_weights", "problem", "paper", "accuracy", "solver_error", "guard", "tets"}),
+    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "tensor", "triangle_tensors", "tetrahedra_tensors", "corner_weights", "problem", "paper", "accuracy", "solver_error", "guard", "tets", "surfaces"}),
     "PaperSwitches": (temper.OptimizeOptions, set()),
     "OptimizeReport": (temper.types.OptimizeReport, {"corner_weights", "triangle_tensors"}), "RunReport": (temper.types.OptimizeReport, set()),
     "SweepRecord": (temper.types.SweepRecord, set()),
