@@ -48,6 +48,7 @@ OTHERS = {
     "--effort": ("`optimize(effort=…)`", "`options_for`"),
     "--keep": ("`optimize(keep=…)`", "`options_for`"),
     "--options": ("`optimize(options=…)`", "`OptimizeOptions`"),
+    "weights --flips": ("", "`surfaces::find_intrinsic_weights`"),
     "optimize --set": ("`optimize(options={…})`", "`OptimizeOptions`"),
     "--size-data": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
     "optimize --size": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
@@ -97,7 +98,7 @@ def options_table(program):
 
 def member_for(name):
     """The member of OptimizeOptions: accuracy_sweeps is AccuracyOptions::sweeps."""
-    groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("SolverErrorOptions", "solver_error."), ("GuardOptions", "guard."), ("TetrahedraOptions", "tets.")]
+    groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("SolverErrorOptions", "solver_error."), ("GuardOptions", "guard."), ("TetrahedraOptions", "tets."), ("CurvedSurfaceOptions", "surfaces.")]
     for struct, place in groups:
         short = name.removeprefix(place.replace(".", "_")) if place else name
         for member in (name, short, "most_" + short):

@@ -108,6 +108,7 @@ struct WeightsRecord {
   std::string_view output = {};                                      ///< empty: not written
   std::string_view certificate = {};                                 ///< the same
   CopyNumbers numbers = {};                                          ///< in certificates
+  const surfaces::IntrinsicWeights* intrinsic = nullptr;             ///< with --flips intrinsic
 };
 
 [[nodiscard]] std::string weights_text(const WeightsRecord& record);
@@ -119,6 +120,9 @@ struct WeightsRecord {
                                           const tets::TetMesh& mesh);
 [[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const SurfaceInput& input,
                                           const surfaces::SurfaceMesh& mesh);
+/// Of an intrinsic triangle, by its number there.
+[[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const SurfaceInput& input,
+                                          const surfaces::IntrinsicMesh& mesh);
 /// The triangle of a height.
 [[nodiscard]] TriangleId triangle_of(const Mesh& mesh, const WeightConstraint& constraint);
 

@@ -130,6 +130,24 @@ std::string search_text(const WeightsRecord& r) {
   return text;
 }
 
+std::string intrinsic_text(const WeightsRecord& r) {
+  if (r.intrinsic == nullptr) return {};
+  const auto& [report, flips, before, after, rounds] = *r.intrinsic;
+  const std::string blocked =
+      flips.blocked == 0 ? "" : fmt::format(", {} negative that cannot flip", plural(flips.blocked, "edge", "edges"));
+  return fmt::format("intrinsic flips: bad triangles {} -> {}, {} in {}{}\n", before, after,
+                     plural(flips.flips, "flip", "flips"), plural(rounds, "round", "rounds"), blocked);
+}
+
+Json intrinsic_json(const surfaces::IntrinsicWeights& found) {
+  const auto& [report, flips, before, after, rounds] = found;
+  return {{"flips", flips.flips},
+          {"blocked", flips.blocked},
+          {"bad_before", before},
+          {"bad_after", after},
+          {"rounds", rounds}};
+}
+
 std::string optimality_text(const WeightsRecord& r) {
   if (!r.report.optimality) return {};
   const Optimality& proof = *r.report.optimality;
@@ -236,12 +254,18 @@ double angle_at(const surfaces::SurfaceMesh& mesh, const WeightConstraint& c) {
   const Vec3 at = mesh.position(c.r), p = mesh.position(c.p) - at, q = mesh.position(c.q) - at;
   return std::atan2(length(cross(p, q)), dot(p, q));
 }
+double angle_at(const surfaces::IntrinsicMesh& mesh, const WeightConstraint& c) {
+  const surfaces::MetricTriangle t = mesh.triangle(mesh.connectivity().find_halfedge(c.p, c.q));
+  return std::acos(std::clamp((t.qr + t.rp - t.pq) / (2 * std::sqrt(t.qr * t.rp)), -1.0, 1.0));
+}
 const Mesh& connectivity_of(const Mesh& mesh) { return mesh; }
-const Mesh& connectivity_of(const surfaces::SurfaceMesh& mesh) { return mesh.connectivity(); }
+template <class Surface>
+const Mesh& connectivity_of(const Surface& mesh) {
+  return mesh.connectivity();
+}
 
-template <class Subject>
-std::string text_of_constraint(const WeightConstraint& c, const InputOf<Subject>& input,
-                               const typename Subject::Mesh& mesh) {
+template <class Subject, class AnyMesh>
+std::string text_of_constraint(const WeightConstraint& c, const InputOf<Subject>& input, const AnyMesh& mesh) {
   const std::string p = input.vertex_number(c.p), q = input.vertex_number(c.q);
   if (c.kind == Kind::crossing) return fmt::format("d of edge {}-{} from vertex {}", p, q, p);
   if (c.kind == Kind::dual) {
@@ -261,11 +285,14 @@ std::string constraint_text(const WeightConstraint& c, const Input& input, const
 std::string constraint_text(const WeightConstraint& c, const SurfaceInput& input, const surfaces::SurfaceMesh& mesh) {
   return text_of_constraint<Surfaces>(c, input, mesh);
 }
+std::string constraint_text(const WeightConstraint& c, const SurfaceInput& input, const surfaces::IntrinsicMesh& mesh) {
+  return text_of_constraint<Surfaces>(c, input, mesh);
+}
 
 std::string weights_text(const WeightsRecord& r) {
   const WeightReport& report = r.report;
-  std::string text =
-      fmt::format("{}: {}\n{}{}\n{}\n", r.path, r.size, search_text(r), verdict_text(r), margin_text(report));
+  std::string text = fmt::format("{}: {}\n{}{}\n{}\n", r.path, r.size, search_text(r) + intrinsic_text(r),
+                                 verdict_text(r), margin_text(report));
   if (!report.solved && report.verdict == Feasibility::feasible) {
     const bool linear = r.options.goal != WeightGoal::center && r.options.goal != WeightGoal::accuracy;
     text += linear ? fmt::format("no weights give a margin of {}\n", r.options.margin)
@@ -290,6 +317,7 @@ std::string weights_json(const WeightsRecord& r) {
   json["constraints"] = name(r.options.constraints);
   json["edges"] = r.options.edges.empty() ? Json(nullptr) : Json(r.options.edges.size());
   json["search"] = search_json(r);
+  if (r.intrinsic != nullptr) json["intrinsic"] = intrinsic_json(*r.intrinsic);
   json["verdict"] = name(report.verdict);
   json["feasible"] =
       report.verdict == Feasibility::undecided ? Json(nullptr) : Json(report.verdict == Feasibility::feasible);

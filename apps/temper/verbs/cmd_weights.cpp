@@ -22,6 +22,7 @@
 #include "temper/detail/certificate_io.hpp"
 #include "temper/detail/connectivity.hpp"
 #include "temper/detail/criterion.hpp"
+#include "temper/detail/dec_io.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/optimize.hpp"
@@ -52,6 +53,8 @@ enum class Connectivity { fixed, search };
 constexpr Choice<Connectivity> kConnectivities[] = {{"fixed", Connectivity::fixed},
                                                     {"search", Connectivity::search, CellKinds::triangles}};
 
+constexpr Choice<bool> kFlips[] = {{"none", false}, {"intrinsic", true, CellKinds::surfaces}};
+
 struct WeightsSettings {
   std::string projection;
   Heights heights;
@@ -62,6 +65,7 @@ struct WeightsSettings {
   WeightOptions options;
   std::string edges = "all";
   Connectivity connectivity = Connectivity::fixed;
+  bool intrinsic_flips = false;
   std::uint64_t whole = WeightOptions().whole, programs = ConnectivityOptions().programs;
   double time_limit = 60;
   TensorOption tensor;
@@ -180,6 +184,10 @@ void add_connectivity(Command& command, WeightsSettings& s) {
              "Connectivity of the result. 'fixed' keeps the edges of IN. 'search' looks for edges with a margin, and "
              "flips edges while this raises the best margin. If the mesh is in the plane and has at most "
              "300 vertices, it finds edges that have weights, or proves that no edges have any.");
+  add_choice(
+      command, "--flips", kFlips, s.intrinsic_flips,
+      "Flips of edges of a curved surface. 'intrinsic' flips them on the surface, which stays. No mesh file holds "
+      "such edges, so OUT is a folder for arrays: operators.npz has triangles, lengths, weights and operators.");
   add_count(command, "--programs", s.programs, 1, "Largest number of linear programs of the whole mesh in the search.");
   add_number(command, "--time-limit", s.time_limit, kNotNegative,
              "Time limit of the search in seconds. temper then reports the best bound so far. 0 sets no limit.");
@@ -255,6 +263,11 @@ void check_usage(const Command& command, const WeightsSettings& s) {
   }
   if (!search && command.was_given("--time-limit")) lacks("--time-limit", "--connectivity search");
   if (s.options.goal == WeightGoal::center && command.was_given("--margin")) conflict("--mode center", "--margin");
+  if (!s.intrinsic_flips) return;
+  for (const char* option : {"--certificate", "--check-certificate", "--format"}) {
+    if (command.was_given(option)) conflict("--flips intrinsic", option);
+  }
+  if (s.output.path.empty() || s.output.path == "-") fail("--flips intrinsic needs a folder. Next: -o DIR");
 }
 
 /// The fault of a certificate, after its name.
@@ -509,7 +522,24 @@ Exit run(WeightsSettings& s, Input& input, Outputs& outputs) {
   const std::optional<ConnectivityReport> search = searched(s, input, *clp_solver());
   return search ? find(s, input, search->mesh, &*search, outputs) : find(s, input, input.mesh(), nullptr, outputs);
 }
+/// Flips on the surface, finds weights, and writes arrays.
+Exit find_intrinsic(const WeightsSettings& s, const SurfaceInput& input, Outputs& outputs) {
+  surfaces::IntrinsicMesh mesh(input.mesh());
+  const surfaces::IntrinsicWeights found =
+      or_fail(find_intrinsic_weights(mesh, *clp_solver(), s.options, interior_point_solver().get()));
+  WeightsRecord record = record_of(s, input, input.mesh(), found.report, nullptr);
+  record.text = [&](const WeightConstraint& c) { return constraint_text(c, input, mesh); };
+  record.triangle = triangles_of(mesh.connectivity());
+  record.intrinsic = &found;
+  if (found.report.solved) {
+    or_fail(io::write_dec(s.output.path, mesh, dec_operators(mesh), input.points));
+    record.output = s.output.path;
+  }
+  return end(s, record, outputs);
+}
+
 Exit run(WeightsSettings& s, SurfaceInput& input, Outputs& outputs) {
+  if (s.intrinsic_flips) return find_intrinsic(s, input, outputs);
   return find(s, input, input.mesh(), nullptr, outputs);
 }
 Exit run(const WeightsSettings& s, TetInput& input, Outputs& outputs) {
@@ -537,13 +567,14 @@ Exit run_weights(const Arguments& arguments) {
   s.options.from_input = s.from == From::input;
   s.options.whole = s.whole;
   Outputs outputs("weights");
-  if (!s.output.path.empty()) outputs.expect_mesh(s.output, {s.edges});
+  const bool writes_mesh = !s.output.path.empty() && !s.intrinsic_flips;
+  if (writes_mesh) outputs.expect_mesh(s.output, {s.edges});
   outputs.expect_text("--certificate", s.certificate, {s.input, s.edges});
 
   AnyInput any = read_any(command, s.input, {s.projection, {}, nullptr, s.heights});
   return std::visit(
       [&](auto& input) {
-        outputs.expect_place(s.output, input.file);
+        if (writes_mesh) outputs.expect_place(s.output, input.file);
         print_warnings(input.warnings());
         return s.check.empty() ? run(s, input, outputs) : check(s, input);
       },

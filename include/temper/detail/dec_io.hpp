@@ -133,6 +133,12 @@ enum class DecKind { triangles, columns, tetrahedra };
                                                            const DecComplex& complex,
                                                            const DecWriteOptions& options = {});
 
+/// Writes the operators of an intrinsic triangulation as NPZ alone. Its edges have lengths, and nothing has a place.
+[[nodiscard]] Expected<std::vector<std::string>> write_dec(const std::string& folder,
+                                                           const surfaces::IntrinsicMesh& mesh,
+                                                           const DecComplex& complex,
+                                                           std::span<const std::size_t> points = {});
+
 /// Reads layers: a CSV file with a title line and a row for each vertex, by its number in the file of the mesh.
 ///
 ///     vertex,top,bottom 1,bottom 2,active 1,active 2        lines that begin with # are comments

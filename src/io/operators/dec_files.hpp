@@ -43,6 +43,12 @@ struct DecJob : DecFolder {
   [[nodiscard]] DecPositions positions() const;
 };
 
+/// No vertex of it has a place.
+struct IntrinsicDecJob : DecFolder {
+  const surfaces::IntrinsicMesh& mesh;
+  const DecComplex& complex;
+};
+
 struct TetDecJob : DecFolder {
   const tets::TetMesh& mesh;
   const tets::DecComplex& complex;
@@ -81,6 +87,7 @@ struct DecMatrices {
 void write_dec_mtx(const DecFolder& folder, const DecMatrices& matrices);
 void write_dec_npz(const DecJob& job);
 void write_dec_npz(const TetDecJob& job);
+void write_dec_npz(const IntrinsicDecJob& job);
 void write_dec_vtu(const DecJob& job);
 void write_dec_vtu(const TetDecJob& job);
 // Precondition of the functions below: the job has columns.

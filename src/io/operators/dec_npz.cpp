@@ -97,10 +97,10 @@ void add_positions(NpzWriter& npz, std::string_view name, const DecPositions& pl
   npz.add(name, values, {places.size, places.coordinates});
 }
 
-/// Vertices, and the triangles or tetrahedra.
+/// Weights of the vertices, and the triangles or tetrahedra.
 template <class AnyMesh, class Elements>
-void add_mesh(NpzWriter& npz, const DecFolder& folder, const AnyMesh& mesh, const DecPositions& positions,
-              std::string_view name, const Elements& elements) {
+void add_mesh(NpzWriter& npz, const DecFolder& folder, const AnyMesh& mesh, std::string_view name,
+              const Elements& elements) {
   constexpr std::size_t kCorners = std::tuple_size_v<std::remove_cvref_t<decltype(mesh.corners(*elements.begin()))>>;
   std::vector<double> weights;
   std::vector<std::int64_t> points;
@@ -114,7 +114,6 @@ void add_mesh(NpzWriter& npz, const DecFolder& folder, const AnyMesh& mesh, cons
     for (const VertexId v : mesh.corners(t)) corners.push_back(static_cast<std::int32_t>(v.index));
     regions.push_back(mesh.region(t));
   }
-  add_positions(npz, "vertices", positions);
   npz.add("weights", weights);
   npz.add("points", points);
   npz.add(name, corners, {elements.size(), kCorners});
@@ -131,7 +130,7 @@ std::int32_t end_of(const auto& edge, std::size_t k) {
   return signed_index(k == 0 ? edge.from.index : edge.to.index, true);
 }
 
-void add_edges(NpzWriter& npz, const DecComplex& c) {
+void add_edges(NpzWriter& npz, const DecComplex& c, bool have_places = true) {
   add_rows<std::int32_t>(npz, "edges", c.edges, 2, [](const DecEdge& e, std::size_t k) { return end_of(e, k); });
   add_rows<std::int32_t>(npz, "edge_triangles", c.edges, 2, [](const DecEdge& e, std::size_t k) {
     const TriangleId t = k == 0 ? e.left : e.right;
@@ -141,7 +140,7 @@ void add_edges(NpzWriter& npz, const DecComplex& c) {
   add_numbers(npz, "edge_crossings", c.edges, &DecEdge::crossing);
   add_rows<double>(npz, "edge_heights", c.edges, 2,
                    [](const DecEdge& e, std::size_t k) { return k == 0 ? e.left_height : e.right_height; });
-  add_positions(npz, "edge_midpoints", midpoint_positions(c));
+  if (have_places) add_positions(npz, "edge_midpoints", midpoint_positions(c));
   add_numbers(npz, "dual_lengths", c.edges, &DecEdge::dual_length);
 }
 
@@ -239,7 +238,8 @@ void write_dec_npz(const DecJob& job) {
   const DecComplex& c = job.complex;
   const DecMatrices matrices = matrices_of(c);
   NpzWriter npz(job.open("operators.npz"));
-  add_mesh(npz, job, job.mesh, job.positions(), "triangles", job.mesh.triangles());
+  add_positions(npz, "vertices", job.positions());
+  add_mesh(npz, job, job.mesh, "triangles", job.mesh.triangles());
   add_space(npz, job.mesh);
   add_edges(npz, c);
   add_matrices(npz, matrices, c);
@@ -250,11 +250,25 @@ void write_dec_npz(const DecJob& job) {
   write_matrices(job, matrices);
 }
 
+void write_dec_npz(const IntrinsicDecJob& job) {
+  const DecComplex& c = job.complex;
+  const DecMatrices matrices = matrices_of(c);
+  const Mesh& mesh = job.mesh.connectivity();
+  NpzWriter npz(job.open("operators.npz"));
+  add_mesh(npz, job, mesh, "triangles", mesh.triangles());
+  add_edges(npz, c, false);
+  add_matrices(npz, matrices, c);
+  npz.add("triangle_areas", c.areas.raw());
+  npz.finish();
+  write_matrices(job, matrices);
+}
+
 void write_dec_npz(const TetDecJob& job) {
   const tets::DecComplex& c = job.complex;
   const DecMatrices matrices = matrices_of(c);
   NpzWriter npz(job.open("operators.npz"));
-  add_mesh(npz, job, job.mesh, vertex_positions(job.mesh), "tetrahedra", job.mesh.tetrahedra());
+  add_positions(npz, "vertices", vertex_positions(job.mesh));
+  add_mesh(npz, job, job.mesh, "tetrahedra", job.mesh.tetrahedra());
   add_edges(npz, c);
   add_faces(npz, c);
   add_matrices(npz, matrices, c);

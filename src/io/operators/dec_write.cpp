@@ -49,6 +49,8 @@ void write_all(const DecJob& job) {
   if (wants(job, DecFormat::uge)) write_volumes_pflotran(job, volumes_of(job));
 }
 
+void write_all(const IntrinsicDecJob& job) { write_dec_npz(job); }
+
 void write_all(const TetDecJob& job) {
   if (wants(job, DecFormat::npz)) write_dec_npz(job);
   if (wants(job, DecFormat::mtx)) write_dec_mtx(job, matrices_of(job.complex));
@@ -151,6 +153,15 @@ Expected<std::vector<std::string>> write_dec(const std::string& folder, const su
   const PowerCells cells = dual_cells(mesh, complex);
   return guarded<std::vector<std::string>>(
       folder, [&] { return write_dec_or_throw<DecJob>(folder, options, mesh.connectivity(), complex, cells, &mesh); });
+}
+
+Expected<std::vector<std::string>> write_dec(const std::string& folder, const surfaces::IntrinsicMesh& mesh,
+                                             const DecComplex& complex, std::span<const std::size_t> points) {
+  DecWriteOptions options;
+  options.formats = {DecFormat::npz};
+  options.points = points;
+  return guarded<std::vector<std::string>>(
+      folder, [&] { return write_dec_or_throw<IntrinsicDecJob>(folder, options, mesh, complex); });
 }
 
 Expected<std::vector<std::string>> write_dec(const std::string& folder, const tets::TetMesh& mesh,

@@ -105,6 +105,25 @@ TEST_F(Surfaces, HaveWeightsWithProofs) {
   EXPECT_TRUE(contains(temper_ok({"weights", "in.obj", "--check-certificate", "why.json"}).out, "why.json proves it"));
   write("other.obj", torus(22, 9));
   EXPECT_EQ(temper({"weights", "other.obj", "--check-certificate", "why.json"}).exit, 1);
+
+  // On the surface edges may flip. The result is no mesh of a file, but arrays.
+  const Outcome flipped = temper({"weights", "in.obj", "--mode", "fewest", "--flips", "intrinsic", "-o", "arrays"});
+  EXPECT_EQ(flipped.exit, 0) << flipped.err;
+  EXPECT_TRUE(contains(flipped.out, "intrinsic flips: bad triangles 154 -> "));
+  EXPECT_TRUE(contains(flipped.out, "wrote arrays\n"));
+  const std::string arrays = read("arrays/operators.npz");
+  for (const char* name : {"weights.npy", "triangles.npy", "edges.npy", "edge_lengths.npy", "star1.npy"})
+    EXPECT_TRUE(contains(arrays, name)) << name;
+  for (const char* name : {"vertices.npy", "edge_midpoints.npy", "orthocenters.npy"})
+    EXPECT_FALSE(contains(arrays, name)) << name << ", which no vertex or triangle of it has";
+  const auto json = nlohmann::json::parse(
+      temper_ok({"weights", "in.obj", "--mode", "fewest", "--flips", "intrinsic", "-o", "arrays", "--json"}).out);
+  EXPECT_EQ(json["intrinsic"]["bad_before"], 154);
+  EXPECT_LT(json["intrinsic"]["bad_after"], 100);
+  EXPECT_GT(json["intrinsic"]["flips"], 0);
+  for (const char* option : {"--certificate", "--format"})
+    EXPECT_EQ(temper({"weights", "in.obj", "-o", "arrays", "--flips", "intrinsic", option, "vtu"}).exit, 2) << option;
+  EXPECT_EQ(temper({"weights", "in.obj", "--mode", "margin", "--flips", "intrinsic"}).exit, 2);
 }
 
 TEST_F(Surfaces, HaveOperatorsInSpace) {
