@@ -1,4 +1,4 @@
-"""Writes torus.obj: a torus of trapezoids, each cut in two. In one half of them an angle is obtuse."""
+"""Writes torus.obj: a torus of trapezoids, each cut in two, with points moved along it. Many angles are obtuse."""
 
 from math import cos, pi, sin
 
@@ -6,7 +6,8 @@ AROUND, THROUGH = 48, 20
 with open("torus.obj", "w") as file:
     for i in range(AROUND):
         for j in range(THROUGH):
-            u, v = 2 * pi * i / AROUND, 2 * pi * j / THROUGH
+            u = 2 * pi * (i + 0.25 * sin(7 * i + 3 * j)) / AROUND
+            v = 2 * pi * (j + 0.25 * cos(5 * i + 2 * j)) / THROUGH
             away = 1 + 0.4 * cos(v)
             file.write(f"v {away * cos(u)} {away * sin(u)} {0.4 * sin(v)}\n")
     for i in range(AROUND):
