@@ -331,8 +331,10 @@ struct IntrinsicWeights {
 // --- optimization ---------------------------------------------------------------------------------------------------
 
 struct SurfaceOptions {
-  Criterion criterion = Criterion::well_centered;  ///< The run ends when the mesh meets it
-  double margin = 0.01;                            ///< Margin t of the final weights, in (0, 1/2)
+  /// The run ends when the mesh meets it. A run for another criterion than well_centered tries that one first, because
+  /// its coefficients are larger.
+  Criterion criterion = Criterion::well_centered;
+  double margin = 0.01;  ///< Margin t of the final weights, in (0, 1/2)
   /// Largest distance between input and result, in parts of the diagonal of the bounding box.
   double surface_distance = 0.005;
   /// Creases are edges whose triangles turn by more than this angle [degrees]. They and their vertices stay; new

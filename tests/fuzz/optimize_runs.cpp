@@ -1,7 +1,9 @@
 // Bytes as a list of choices: a triangulation of a square by insertions and flips, with weights, constraints, regions
 // and fixed vertices; a value for some rows of the table of options; then optimize(). What comes out is valid and
-// regular, or the mesh of before with an error. A trace of the run, written and read, makes the same bytes again.
+// regular, or the mesh of before with an error. A trace of the run, written and read, makes the same bytes again. With
+// a height for each vertex the mesh is a curved surface, with the laws of those.
 #include <algorithm>
+#include <cmath>
 
 #include "base/rng.hpp"
 #include "files/trace_jsonl.hpp"
@@ -12,6 +14,7 @@
 #include "temper/detail/transfer.hpp"
 #include "temper/regularity.hpp"
 #include "temper/solvers.hpp"
+#include "temper/surfaces.hpp"
 
 namespace temper::fuzz {
 namespace {
@@ -182,6 +185,74 @@ void run_optimize(std::string_view bytes) {
   insist(*again == mesh && app::is_end_of(read.end, *again), "the trace makes the same bytes");
 }
 
+/// The mesh of a square with a height for each vertex: a wavy or folded surface. Some have ridges.
+std::optional<surfaces::SurfaceMesh> make_surface(Choices& choices) {
+  const Mesh plane = make_mesh(choices);
+  const double steep = choices.one_in(3) ? 1 : 0.1;
+  std::vector<Vec3> points;
+  std::vector<std::int32_t> regions;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (const VertexId v : plane.vertices())
+    points.push_back({plane.position(v).x, plane.position(v).y, steep * choices.coordinate()});
+  const auto number = [](VertexId v) { return static_cast<std::int32_t>(v.index); };
+  for (const TriangleId t : plane.triangles()) {
+    const auto [a, b, c] = plane.corners(t);
+    triangles.push_back({number(a), number(b), number(c)});
+    regions.push_back(plane.region(t));
+  }
+  surfaces::SurfaceInput input;
+  input.points = points, input.triangles = triangles, input.regions = regions;
+  auto built = surfaces::SurfaceMesh::build(input);
+  if (!built) return std::nullopt;  // a triangle may be flat
+  return std::move(built->mesh);
+}
+
+void insist_on_operators(const DecComplex& complex, double area) {
+  double sum = 0;
+  for (const double star : complex.star0.raw()) sum += star;
+  insist(std::abs(sum - area) <= 1e-9 * area, "dual cells fill the surface");
+}
+
+void run_on_surface(std::string_view bytes) {
+  Choices choices(bytes);
+  const auto before = make_surface(choices);
+  const Solvers solvers = temper::solvers();
+  if (!before || !solvers.lp) return;
+  surfaces::SurfaceOptions options;
+  options.criterion =
+      std::array{Criterion::well_centered, Criterion::coefficients, Criterion::distances}[choices.below(3)];
+  options.surface_distance = 0.02 * static_cast<double>(choices.below(4));
+  options.crease_angle_deg = 20 * static_cast<double>(1 + choices.below(9));
+  options.may_flip = !choices.one_in(4), options.may_insert = !choices.one_in(4), options.may_move = !choices.one_in(4);
+  options.repair_trials = 20;
+  surfaces::SurfaceMesh mesh = *before;
+  const auto report = surfaces::optimize(mesh, *solvers.lp(), options);
+  insist(report.has_value(), report ? "" : report.error().what());
+  const auto wrong = mesh.validate();
+  insist(!wrong, wrong.value_or(""));
+  insist(surfaces::cells_at_violations(mesh, options.criterion).size() <=
+             surfaces::cells_at_violations(*before, options.criterion).size(),
+         "no run makes more triangles bad");
+  // A closest point in a thin triangle is rounded.
+  insist(report->surface_distance <= (options.surface_distance + 1e-9) * report->diagonal,
+         "the result is near the input");
+  if (!options.may_insert) insist(mesh.n_vertices() == before->n_vertices(), "no vertex comes or goes");
+
+  double area = 0;
+  const DecComplex complex = surfaces::dec_operators(mesh);
+  for (const double of_triangle : complex.areas.raw()) area += of_triangle;
+  insist_on_operators(complex, area);
+  surfaces::IntrinsicMesh intrinsic(mesh);
+  const std::size_t bad = surfaces::n_bad_triangles(intrinsic);
+  WeightOptions elastic;
+  elastic.goal = WeightGoal::elastic;
+  elastic.from_input = true;
+  const auto found = surfaces::find_intrinsic_weights(intrinsic, *solvers.lp(), elastic);
+  if (!found) return insist(!found.error().message.empty(), "an error has a message");
+  insist(bad > 0 || surfaces::n_bad_triangles(intrinsic) == 0, "good triangles stay good");
+  insist_on_operators(surfaces::dec_operators(intrinsic), area);
+}
+
 /// Bytes without meaning: each is a mesh and options.
 std::vector<std::string> some_bytes() {
   std::vector<std::string> all;
@@ -196,6 +267,8 @@ std::vector<std::string> some_bytes() {
 
 }  // namespace
 
-std::vector<Target> optimize_targets() { return {{"optimize", run_optimize, some_bytes}}; }
+std::vector<Target> optimize_targets() {
+  return {{"optimize", run_optimize, some_bytes}, {"surfaces", run_on_surface, some_bytes}};
+}
 
 }  // namespace temper::fuzz

@@ -198,7 +198,7 @@ void write(const Command& command, const DecSettings& s, TetInput& input, const 
            Executor* executor) {
   const auto view = take_to_metric(input, s.tensor);
   tets::DecComplex complex = with_k(command, s, input, tets::dec_operators(input.mesh()));
-  if (view) complex = mapped_back(std::move(complex), view->pieces, view->plain);
+  if (view) complex = mapped_back(complex, view->pieces, view->plain);
   const tets::DecSummary summary = tets::summarize(complex);
   TetDecRecord record = {s.input, summary, {}};
   warn(s, record);

@@ -123,7 +123,8 @@ std::string two_digits(double value) {
   return digits;
 }
 
-constexpr double kNearly = 0.01;  // of the extent or radius: then a sphere may be meant, not a surface
+constexpr double kOffOfExtent = 1e-3;  // largest distance from a sphere, over the extent of a part of it
+constexpr double kNearly = 0.01;       // of the extent or radius: then a sphere may be meant, not a surface
 
 [[noreturn]] void fail_in_space(const std::vector<Vec3>& points, const std::vector<bool>& used, const PlaneFit& plane,
                                 const InputNames& names) {
@@ -163,7 +164,8 @@ struct NearSphere {
 std::optional<NearSphere> near_sphere(const std::vector<Vec3>& points) {
   NearSphere sphere = {median_distance(points), {}};
   sphere.fit = most_off(points, sphere.radius);
-  return sphere.radius > 0 && sphere.fit.off <= kNearly * sphere.radius ? std::optional(sphere) : std::nullopt;
+  const double most = kNearly * std::min(sphere.radius, extent(points));
+  return sphere.radius > 0 && sphere.fit.off <= most ? std::optional(sphere) : std::nullopt;
 }
 
 /// Says whether all triangles have one orientation when seen along z: the surface may be a bed.
@@ -185,10 +187,12 @@ void set_surface(MeshFile& file, const std::vector<Vec3>& points, const std::vec
   const double radius = median_distance(used);
   const SphereFit fit = most_off(used, radius);
   if (near_sphere(used)) {
-    warn("all points are on a sphere around the origin to ", two_digits(fit.off / radius), " of its radius, and ", kOff,
-         " is allowed, so they are a curved surface. Next: --projection sphere moves them to the sphere "
+    warn("all points are on a sphere around the origin to ", two_digits(fit.off / radius), " of its radius and ",
+         two_digits(fit.off / extent(used)), " of their extent. A mesh of the sphere has at most ", kOff, " and ",
+         kOffOfExtent,
+         ", so they are a curved surface. Next: --projection sphere moves them to the sphere "
          "(projection=\"sphere\" in Python)");
-  } else if (2 * fit.n_off < used.size()) {
+  } else if (fit.n_off > 0 && 2 * fit.n_off < used.size()) {
     warn("most points are ", radius, " from the origin, but ", fit.n_off, fit.n_off == 1 ? " is" : " are",
          " not: they are a curved surface");
   } else if (is_graph(file, points)) {
@@ -340,8 +344,10 @@ Expected<void> set_points(MeshFile& file, std::vector<Vec3> points) {
 
 std::optional<double> common_radius(const std::vector<Vec3>& points) {
   const double radius = median_distance(points);
-  const auto off = [radius](Vec3 p) { return is_off(length(p), radius); };
-  if (!(radius > 0) || std::any_of(points.begin(), points.end(), off)) return std::nullopt;
+  if (!(radius > 0)) return std::nullopt;
+  const SphereFit fit = most_off(points, radius);
+  // Of a small surface far from the origin all distances are nearly equal, too.
+  if (fit.n_off > 0 || fit.off > kOffOfExtent * extent(points)) return std::nullopt;
   // A radius that a person wrote has few digits.
   const double places = 11 - std::floor(std::log10(radius)), power = std::pow(10, std::abs(places));
   const double rounded = places > 0 ? std::round(radius * power) / power : std::round(radius / power) * power;

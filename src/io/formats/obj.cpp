@@ -77,19 +77,19 @@ class ObjReader {
   }
   void face() {
     MeshFile& f = document_.file;
-    std::array<std::int32_t, 3> corners = {};
+    std::array<std::int32_t, 4> corners = {};
     std::size_t n = 0;
     const auto text_line = static_cast<std::int64_t>(scanner_.line());
     for (; scanner_.more_on_line(); ++n) {
       const std::int32_t p = index();
-      if (n < 3) corners[n] = p;
+      if (n < 4) corners[n] = p;
     }
-    if (n != 3) {
-      fail(n > 3 ? ErrorCode::unsupported : ErrorCode::syntax, text(scanner_.path(), ":", text_line), "face ",
-           f.triangles.size() + 1, " has ", n, " corners; temper reads triangles",
-           n == 4 ? kNextForQuadrilaterals : "");
+    if (n != 3 && n != 4) {
+      fail(n > 4 ? ErrorCode::unsupported : ErrorCode::syntax, text(scanner_.path(), ":", text_line), "face ",
+           f.triangles.size() + 1, " has ", n, " corners; temper reads triangles and quadrilaterals");
     }
-    f.triangles.add(corners, tags_[2]);
+    document_.add_face({corners[0], corners[1], corners[2]}, n == 4 ? corners[3] : kNoCorner);
+    f.triangles.tags.push_back(tags_[2]);
     document_.names->triangle_lines.push_back(text_line);
     has_regions_ = has_regions_ || in_region_ || tags_[2] != 0;
     keep_name(2);

@@ -62,13 +62,14 @@ class OffReader {
     f.triangles.corners.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
       const std::int32_t corners = scanner_.integer("the number of corners of a face");
-      if (corners != 3) {
-        scanner_.fail_here(corners > 3 ? ErrorCode::unsupported : ErrorCode::syntax, "face ", i, " has ", corners,
-                           " corners; temper reads triangles", corners == 4 ? kNextForQuadrilaterals : "");
+      if (corners != 3 && corners != 4) {
+        scanner_.fail_here(corners > 4 ? ErrorCode::unsupported : ErrorCode::syntax, "face ", i, " has ", corners,
+                           " corners; temper reads triangles and quadrilaterals");
       }
       document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const std::int32_t a = scanner_.vertex(0), b = scanner_.vertex(0);
-      f.triangles.corners.push_back({a, b, scanner_.vertex(0)});
+      const std::int32_t c = scanner_.vertex(0);
+      document_.add_face({a, b, c}, corners == 4 ? scanner_.vertex(0) : kNoCorner);
       skip_rest(more_of_faces_);
     }
   }

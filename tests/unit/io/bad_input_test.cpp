@@ -99,8 +99,8 @@ const std::vector<Bad>& bad_files() {
        ErrorCode::unsupported,
        "m.mesh:6: element 0 is a quadrilateral; in this format temper reads linear triangles, with lines and points as "
        "tags. Next: write meshes of quadrilaterals as VTU or Gmsh"},
-      {"polygon_in_obj", "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", ErrorCode::unsupported,
-       "m.obj:5: face 1 has 4 corners; temper reads triangles. Next: write meshes of quadrilaterals as VTU or Gmsh"},
+      {"polygon_in_obj", "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0.5 0\nf 1 2 3 4 5\n",
+       ErrorCode::unsupported, "m.obj:6: face 1 has 5 corners; temper reads triangles and quadrilaterals"},
       {"no_triangles", "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\n", ErrorCode::empty_input,
        "m.obj: the file has no triangles or tetrahedra"},
       {"outline_for_a_mesh", "m.msh", "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=2\n0;0;0\n1;0;0\nEDGE2=1\n0;1;0\n",

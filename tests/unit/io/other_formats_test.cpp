@@ -116,10 +116,20 @@ TEST_F(OtherFormats, OffWithColorsAndCommentsIsReadAndSaysWhatItDrops) {
   EXPECT_EQ(read_ok("m.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").triangles.corners, (Triangles{{0, 1, 2}}));
 }
 
+TEST_F(OtherFormats, QuadrilateralsOfOffAndObjAreCutInTwo) {
+  const std::string points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  EXPECT_EQ(read_ok("m.off", "OFF\n4 1 0\n" + points + "4 0 1 2 3\n").triangles.size(), 2u);
+  const MeshFile obj =
+      read_ok("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\ng inlet\nf 1 2 3 4\ng outlet\nf 2 5 3\n");
+  EXPECT_EQ(obj.triangles.size(), 3u);
+  EXPECT_EQ(std::set<std::int32_t>(obj.triangles.tags.begin(), obj.triangles.tags.end()).size(), 2u);
+  EXPECT_EQ(std::count(obj.triangles.tags.begin(), obj.triangles.tags.end(), obj.triangles.tags[0]), 2);
+  EXPECT_TRUE(io::make_mesh(obj));
+}
+
 TEST_F(OtherFormats, OffOfPolygonsOrInBinaryIsNamed) {
-  EXPECT_EQ(
-      refused("m.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
-      "m.off:7: face 0 has 4 corners; temper reads triangles. Next: write meshes of quadrilaterals as VTU or Gmsh");
+  EXPECT_EQ(refused("m.off", "OFF\n5 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0.5 0\n5 0 1 2 3 4\n"),
+            "m.off:8: face 0 has 5 corners; temper reads triangles and quadrilaterals");
   EXPECT_EQ(refused("m.off", "OFF BINARY\n"), "m.off:1: is an OFF file in binary; temper reads text");
   EXPECT_EQ(refused("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n"),
             "m.off:7: expected the end of the file after 1 faces, found '3'");

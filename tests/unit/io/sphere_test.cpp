@@ -323,6 +323,22 @@ TEST_F(SphereFiles, SmallPiecesOfSpheresAreNoPlanes) {
   EXPECT_EQ(again->space().radius(), f.space().radius());
 }
 
+TEST_F(SphereFiles, ASmallSurfaceFarFromTheOriginIsNone) {
+  // A pyramid: its points are equally far from the origin to 1e-7, but not over its size.
+  const auto pyramid = read(make("m.obj",
+                                 "v 7000000 0 0\nv 7000000 1 0\nv 7000000 1 1\nv 7000000 0 1\nv 7000000.7 0.5 0.5\n"
+                                 "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n"));
+  ASSERT_TRUE(pyramid) << pyramid.error().what();
+  EXPECT_TRUE(pyramid->is_surface());
+  EXPECT_TRUE(pyramid->warnings.empty());
+  // A small part of a sphere is one.
+  const auto part = read(make("m.obj",
+                              "v 7000000 0 0\nv 6999999.928571428 1000 0\nv 6999999.857142856 1000 1000\n"
+                              "v 6999999.928571428 0 1000\nf 1 2 3\nf 1 3 4\n"));
+  ASSERT_TRUE(part) << part.error().what();
+  EXPECT_NE(part->sphere(), nullptr);
+}
+
 TEST_F(SphereFiles, OfWhatIsNearlyASphereTheWorstPointIsNamed) {
   auto f = read(make("m.obj",
                      "v 1 0 0\nv 0 1 0\nv 0 0 1.00001\nv -1.00002 0 0\nv 0 -1.00001 0\nf 1 2 3\nf 2 4 3\n"
@@ -332,8 +348,9 @@ TEST_F(SphereFiles, OfWhatIsNearlyASphereTheWorstPointIsNamed) {
   ASSERT_EQ(f->warnings.size(), 1U);
   EXPECT_EQ(
       plain(f->warnings[0]),
-      "m.obj: all points are on a sphere around the origin to 1e-05 of its radius, and 1e-06 is allowed, so they "
-      "are a curved surface. Next: --projection sphere moves them to the sphere (projection=\"sphere\" in Python)");
+      "m.obj: all points are on a sphere around the origin to 1e-05 of its radius and 5e-06 of their extent. A mesh of "
+      "the sphere has at most 1e-06 and 0.001, so they are a curved surface. Next: --projection sphere moves them to "
+      "the sphere (projection=\"sphere\" in Python)");
   const auto refused = make_mesh(*f);
   ASSERT_FALSE(refused);
   EXPECT_EQ(plain(refused.error().what()),

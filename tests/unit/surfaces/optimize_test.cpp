@@ -398,6 +398,21 @@ TEST(SurfaceOptimize, AThinTriangleThatIsFoldedOverIsNoCrease) {
   EXPECT_EQ(report.violations_after, 0U);
 }
 
+TEST(SurfaceOptimize, TargetsOfDualsHaveTheCoefficientsOfWellCenteredMeshes) {
+  for (const Criterion criterion : {Criterion::coefficients, Criterion::distances}) {
+    SurfaceMesh all = shaken_torus(0.3, 1), one = all;
+    SurfaceOptions options;
+    options.surface_distance = 0.02;
+    const SurfaceReport good = optimized(all, options);
+    options.criterion = criterion;
+    const SurfaceReport report = optimized(one, options);
+    EXPECT_EQ(one, all);
+    EXPECT_GT(report.violations_before, 0U);
+    EXPECT_NE(report.violations_before, good.violations_before);
+    EXPECT_EQ(report.violations_after, 0U);
+  }
+}
+
 TEST(SurfaceOptimize, TargetsOfDualsAreMet) {
   for (const Criterion criterion : {Criterion::coefficients, Criterion::distances}) {
     SurfaceMesh mesh = shaken_torus(0.35, 4);
