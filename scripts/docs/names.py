@@ -97,10 +97,10 @@ def options_table(program):
 
 
 def member_for(name):
-    """The member of OptimizeOptions: accuracy_sweeps is AccuracyOptions::sweeps."""
+    """The member of OptimizeOptions: accuracy_sweeps is AccuracyOptions::sweeps, surface_distance CurvedSurfaceOptions::distance."""
     groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("SolverErrorOptions", "solver_error."), ("GuardOptions", "guard."), ("TetrahedraOptions", "tets."), ("CurvedSurfaceOptions", "surfaces.")]
     for struct, place in groups:
-        short = name.removeprefix(place.replace(".", "_")) if place else name
+        short = name.removeprefix(place.replace(".", "_")).removeprefix(place.replace("s.", "_")) if place else name
         for member in (name, short, "most_" + short):
             if member in members_of(struct):
                 return place + member
