@@ -78,8 +78,13 @@ struct WeightedPoint {
 struct MetricTriangle {
   double pq = 0, qr = 0, rp = 0;
   double wp = 0, wq = 0, wr = 0;
-  /// The same triangle, as qrp.
+  /// The same triangle, as qrp, and as its mirror image qpr.
   [[nodiscard]] constexpr MetricTriangle turned() const { return {qr, rp, pq, wq, wr, wp}; }
+  [[nodiscard]] constexpr MetricTriangle mirrored() const { return {pq, rp, qr, wq, wp, wr}; }
+  /// pq·pr, qp·qr and rp·rq.
+  [[nodiscard]] constexpr std::array<double, 3> dots() const {
+    return {0.5 * (pq + rp - qr), 0.5 * (pq + qr - rp), 0.5 * (qr + rp - pq)};
+  }
 };
 // As above, for the lengths as they are. The height is over pq. `left` is pqr, and `right` is qps.
 [[nodiscard]] bool is_flat(const MetricTriangle& t);
@@ -343,8 +348,7 @@ struct SurfaceOptions {
   bool may_flip = true;    ///< Allow flips of edges in space
   bool may_insert = true;  ///< Allow edges to be split and collapsed next to bad triangles
   bool may_move = true;    ///< Allow vertices to move. Else only weights change
-  /// So many edits tried next to bad triangles, one after the other without a gain, end the repairs. Of 20 trials less
-  /// than one helps.
+  /// Repairs end after this number of edits in a row that do not help. Usually fewer than one edit of 20 helps.
   int repair_trials = 600;
   double time_limit = 0;                 ///< Time limit of the run [s]; 0: none
   std::function<bool()> must_stop = {};  ///< If it says yes, the run ends with the best mesh so far

@@ -256,7 +256,7 @@ double angle_at(const surfaces::SurfaceMesh& mesh, const WeightConstraint& c) {
 }
 double angle_at(const surfaces::IntrinsicMesh& mesh, const WeightConstraint& c) {
   const surfaces::MetricTriangle t = mesh.triangle(mesh.connectivity().find_halfedge(c.p, c.q));
-  return std::acos(std::clamp((t.qr + t.rp - t.pq) / (2 * std::sqrt(t.qr * t.rp)), -1.0, 1.0));
+  return std::atan2(surfaces::doubled_area(t), t.dots()[2]);
 }
 const Mesh& connectivity_of(const Mesh& mesh) { return mesh; }
 template <class Surface>

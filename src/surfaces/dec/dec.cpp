@@ -58,7 +58,7 @@ class IntrinsicMeasures {
     c.areas.push_back(0.5 * doubled_area(mesh_->triangle(Mesh::halfedge(t, 0))));
   }
   void line(DecComplex& /*c*/, DecEdge& edge) const {
-    MetricTriangle t = at(edge.from, edge.to);
+    const MetricTriangle t = at(edge.from, edge.to);
     edge.length = std::sqrt(t.pq);
     edge.crossing = dual_crossing(t);
   }
@@ -78,9 +78,7 @@ class IntrinsicMeasures {
   [[nodiscard]] MetricTriangle at(VertexId p, VertexId q) const {
     const Mesh& mesh = mesh_->connectivity();
     const HalfedgeId h = mesh.find_halfedge(p, q);
-    if (h.valid()) return mesh_->triangle(h);
-    const auto [pq, qr, rp, wp, wq, wr] = mesh_->triangle(mesh.find_halfedge(q, p));
-    return {pq, rp, qr, wq, wp, wr};
+    return h.valid() ? mesh_->triangle(h) : mesh_->triangle(mesh.find_halfedge(q, p)).mirrored();
   }
 
   const IntrinsicMesh* mesh_;

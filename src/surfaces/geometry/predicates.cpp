@@ -70,9 +70,8 @@ Sign dual_length_sign(const MetricTriangle& left, const MetricTriangle& right) {
 bool is_well_centered(const MetricTriangle& t) {
   MetricTriangle side = t;
   for (int k = 0; k < 3; ++k, side = side.turned()) {
-    const MetricTriangle back = {side.pq, side.rp, side.qr, side.wq, side.wp, side.wr};
     if (signed_height_sign(side) != Sign::positive || dual_crossing_sign(side) != Sign::positive ||
-        dual_crossing_sign(back) != Sign::positive)
+        dual_crossing_sign(side.mirrored()) != Sign::positive)
       return false;
   }
   return true;

@@ -24,18 +24,15 @@ constexpr double kLeastSine = 1e-9;
 // Flips per edge, at most. Lawson's flips end without rounding; lattices take about one per edge.
 constexpr std::size_t kMostFlips = 100;
 
-/// ab·ac in the triangle abc, of the side ab.
-double dot_at_p(const MetricTriangle& t) { return 0.5 * (t.pq + t.rp - t.qr); }
-
 /// Says whether the angle at the first corner of `left` and the second one of `right` is less than π.
 bool is_convex_at_p(const MetricTriangle& left, const MetricTriangle& right) {
-  const double here = dot_at_p(left), there = 0.5 * (right.pq + right.qr - right.rp);
+  const double here = left.dots()[0], there = right.dots()[1];
   const double sine = doubled_area(left) * there + doubled_area(right) * here;
   return sine > kLeastSine * left.pq * std::sqrt(left.rp * right.qr);
 }
 
 double squared_diagonal(const MetricTriangle& left, const MetricTriangle& right) {
-  const double along = dot_at_p(left) - 0.5 * (right.pq + right.qr - right.rp);
+  const double along = left.dots()[0] - right.dots()[1];
   const double across = doubled_area(left) + doubled_area(right);
   return (along * along + across * across) / left.pq;
 }

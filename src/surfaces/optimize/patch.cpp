@@ -227,7 +227,7 @@ void Patch::descend(const Run& run) {
     energy.lower(kStepsOfPatch, [&run] { return run.must_stop(); });
     energy.project(run.nearness.input());
   }
-  // What projections cost is left to the weights.
+  // Projections lower margins, so the weights alone follow.
   const auto moves = std::exchange(draft_.moves, IdVector<VertexId, std::uint8_t>(draft_.moves.size(), 0));
   for (const double gamma : kGammas)
     DraftEnergy(draft_, gamma).lower(kStepsOfPatch, [&run] { return run.must_stop(); });

@@ -13,7 +13,7 @@ using Kind = WeightConstraint::Kind;
 
 }  // namespace
 
-std::vector<WeightEdge> SurfaceDemand::edges_of(std::span<const CellId> cells) const {
+std::vector<WeightEdge> CurvedDemand::edges_of(std::span<const CellId> cells) const {
   std::vector<WeightEdge> edges;
   for (const HalfedgeId h : temper::edges_of(mesh(), as_triangles(cells))) {
     const VertexId p = mesh().origin(h), q = mesh().target(h);
@@ -22,22 +22,37 @@ std::vector<WeightEdge> SurfaceDemand::edges_of(std::span<const CellId> cells) c
   return edges;
 }
 
-LinearForm SurfaceDemand::form_of_height(VertexId p, VertexId q, VertexId r) const {
-  return height_form({Kind::height, p, q, r}, from_to(p, q), from_to(p, r), from_to(q, r), doubled_area(p, q, r));
-}
-
-LinearForm SurfaceDemand::linear_form(const WeightConstraint& c) const {
-  if (c.kind == Kind::crossing) return crossing_form(c, from_to(c.p, c.q));
+LinearForm CurvedDemand::linear_form(const WeightConstraint& c) const {
+  if (c.kind == Kind::crossing) return crossing_form(c, squared_distance(c.p, c.q));
   const LinearForm left = form_of_height(c.p, c.q, c.r);
-  if (c.kind == Kind::height) return left;
-  return dual_form(c, left, form_of_height(c.q, c.p, c.s));
+  return c.kind == Kind::height ? left : dual_form(c, left, form_of_height(c.q, c.p, c.s));
 }
 
-double SurfaceDemand::scale_of_polynomial(const WeightConstraint& c) const {
+double CurvedDemand::scale_of_polynomial(const WeightConstraint& c) const {
   const double doubled = 2 * squared_distance(c.p, c.q);
   if (c.kind == Kind::crossing) return doubled;
   const double left = doubled * doubled_area(c.p, c.q, c.r);
   return c.kind == Kind::height ? left : left * doubled_area(c.p, c.q, c.s);
+}
+
+std::vector<OffsetTerm> CurvedDemand::offsets(const WeightOptions& /*options*/) const {
+  TEMPER_ASSERT(false);
+  return {};
+}
+
+double CurvedDemand::reach(VertexId p, VertexId q, std::span<const VertexId> corners) const {
+  const double l2 = squared_distance(p, q);
+  if (has_duals()) return (1 + 2 * kCrossingReach) * l2;
+  double most = l2;
+  for (const VertexId r : corners) {
+    if (!has_crossings() && r != p && r != q)
+      most = std::max(most, std::abs(squared_distance(p, r) - squared_distance(q, r)));
+  }
+  return most;
+}
+
+LinearForm SurfaceDemand::form_of_height(VertexId p, VertexId q, VertexId r) const {
+  return height_form({Kind::height, p, q, r}, from_to(p, q), from_to(p, r), from_to(q, r), doubled_area(p, q, r));
 }
 
 bool SurfaceDemand::is_kept(CellId cell, const VertexWeights& weights) const {
@@ -69,21 +84,6 @@ double SurfaceDemand::angle_deg(const WeightConstraint& c) const {
 
 CertificateCheck SurfaceDemand::check(const Certificate& certificate) const {
   return check_certificate(surface_, certificate);
-}
-
-std::vector<OffsetTerm> SurfaceDemand::offsets(const WeightOptions& /*options*/) const {
-  TEMPER_ASSERT(false);
-  return {};
-}
-
-double SurfaceDemand::reach(VertexId p, VertexId q, std::span<const VertexId> corners) const {
-  const double l2 = squared_distance(p, q);
-  if (has_duals()) return (1 + 2 * kCrossingReach) * l2;
-  double most = l2;
-  for (const VertexId r : corners) {
-    if (!has_crossings()) most = std::max(most, std::abs(squared_distance(p, r) - squared_distance(q, r)));
-  }
-  return most;
 }
 
 }  // namespace temper::surfaces

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/assert.hpp"
 #include "surfaces/weights/demand.hpp"
 
 namespace temper::surfaces {
@@ -13,11 +12,6 @@ namespace {
 using Kind = WeightConstraint::Kind;
 
 constexpr std::size_t kMostRounds = 8;
-
-/// Products of the edges at the corners p, q and r.
-std::array<double, 3> dots(const MetricTriangle& t) {
-  return {0.5 * (t.pq + t.rp - t.qr), 0.5 * (t.pq + t.qr - t.rp), 0.5 * (t.qr + t.rp - t.pq)};
-}
 
 std::size_t n_bad(const IntrinsicDemand& demand, const VertexWeights& weights) {
   const auto cells = demand.cells();
@@ -36,29 +30,15 @@ MetricTriangle IntrinsicDemand::triangle(VertexId p, VertexId q) const {
   return surface_.triangle(h.valid() ? h : mesh().find_halfedge(q, p));
 }
 
-std::vector<WeightEdge> IntrinsicDemand::edges_of(std::span<const CellId> cells) const {
-  std::vector<WeightEdge> edges;
-  for (const HalfedgeId h : temper::edges_of(mesh(), as_triangles(cells)))
-    edges.push_back({mesh().origin(h), mesh().target(h), surface_.squared_length(h)});
-  return edges;
+double IntrinsicDemand::doubled_area(VertexId p, VertexId q, VertexId r) const {
+  const HalfedgeId h = mesh().find_halfedge(p, q);
+  const bool is_here = h.valid() && mesh().opposite(h) == r;
+  return surfaces::doubled_area(is_here ? surface_.triangle(h) : triangle(q, p));
 }
 
 LinearForm IntrinsicDemand::form_of_height(VertexId p, VertexId q, VertexId r) const {
   const MetricTriangle t = triangle(p, q);
-  return height_form({Kind::height, p, q, r}, t.pq, dots(t), doubled_area(t));
-}
-
-LinearForm IntrinsicDemand::linear_form(const WeightConstraint& c) const {
-  if (c.kind == Kind::crossing) return crossing_form(c, squared_distance(c.p, c.q));
-  const LinearForm left = form_of_height(c.p, c.q, c.r);
-  return c.kind == Kind::height ? left : dual_form(c, left, form_of_height(c.q, c.p, c.s));
-}
-
-double IntrinsicDemand::scale_of_polynomial(const WeightConstraint& c) const {
-  const MetricTriangle t = triangle(c.p, c.q);
-  if (c.kind == Kind::crossing) return 2 * t.pq;
-  const double left = 2 * t.pq * doubled_area(t);
-  return c.kind == Kind::height ? left : left * doubled_area(triangle(c.q, c.p));
+  return height_form({Kind::height, p, q, r}, t.pq, t.dots(), surfaces::doubled_area(t));
 }
 
 bool IntrinsicDemand::is_kept(CellId cell, const VertexWeights& weights) const {
@@ -79,27 +59,11 @@ bool IntrinsicDemand::is_kept(CellId cell, const VertexWeights& weights) const {
 double IntrinsicDemand::angle_deg(const WeightConstraint& c) const {
   if (c.kind != Kind::height) return 0;
   const MetricTriangle t = triangle(c.p, c.q);
-  return std::atan2(doubled_area(t), dots(t)[2]) * (180 / std::numbers::pi);
+  return std::atan2(surfaces::doubled_area(t), t.dots()[2]) * (180 / std::numbers::pi);
 }
 
 CertificateCheck IntrinsicDemand::check(const Certificate& certificate) const {
   return check_certificate(surface_, certificate);
-}
-
-std::vector<OffsetTerm> IntrinsicDemand::offsets(const WeightOptions& /*options*/) const {
-  TEMPER_ASSERT(false);
-  return {};
-}
-
-double IntrinsicDemand::reach(VertexId p, VertexId q, std::span<const VertexId> corners) const {
-  const double l2 = squared_distance(p, q);
-  if (has_duals()) return (1 + 2 * kCrossingReach) * l2;
-  double most = l2;
-  for (const VertexId r : corners) {
-    if (!has_crossings() && r != p && r != q)
-      most = std::max(most, std::abs(squared_distance(p, r) - squared_distance(q, r)));
-  }
-  return most;
 }
 
 double weight_margin(const IntrinsicMesh& mesh, Constraints constraints) {

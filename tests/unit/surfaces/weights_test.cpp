@@ -256,7 +256,7 @@ TEST(SurfaceWeights, FewestViolatesFewConstraintsAndNoneWithoutNeed) {
   EXPECT_LT(few, all);
 
   const SurfaceMesh sphere = rough_sphere(0.35, 3);
-  fewest.margin = 0.3;  // more than it can have: none is bad all the same
+  fewest.margin = 0.3;  // No weights have this margin, but no triangle is bad
   const WeightReport report = weights_of(sphere, fewest);
   EXPECT_EQ(report.verdict, Feasibility::feasible);
   EXPECT_GT(report.violations.size(), 0U);
