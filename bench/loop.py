@@ -152,7 +152,7 @@ def loop(mesh, target, arguments):
         else:
             change = ("resize", spot(mesh, size, step))
         if step % WHOLE_RUN_EVERY == 0:
-            with contextlib.suppress(temper.TemperError):  # triangles may turn over, which only an update can mend
+            with contextlib.suppress(temper.TemperError):  # triangles may turn over, which only an update repairs
                 whole = with_points(mesh, places)
                 wholes.append(seconds_of(lambda whole=whole: temper.optimize(whole, target=target, threads=1, progress=False))[0])
         copy = mesh.copy()

@@ -44,7 +44,7 @@ struct UpdatedFile {
   io::DataReport data;
 };
 
-/// What came with the mesh, in its present state, or the file of a mesh of arrays. Without the GIL it works on a copy
+/// The file of the mesh in its present state; of a mesh of arrays, a new one. Without the GIL it works on a copy
 /// of the mesh that was made with the GIL. The copy shares the memory, so other threads may change the mesh meanwhile.
 UpdatedFile updated(const PyMesh& self, io::MeshFile former, Executor* executor = nullptr) {
   const auto mesh = self.read();

@@ -120,7 +120,7 @@ io::MeshFile read_file(const std::string& path, const ReadingOptions& options) {
 AnyInput read_any(const std::string& path, const ReadingOptions& options) {
   ReadingOptions rest = options;
   io::MeshFile file = read_file(path, options);
-  if (take_to_sphere(file, path, options.projection)) rest.projection.clear();
+  take_to_sphere(file, path, rest.projection);
   return with_subject(cells_of(file), [&](auto subject) -> AnyInput {
     return made_of<decltype(subject)>(std::move(file), path, rest);
   });
@@ -133,7 +133,7 @@ Input make_input(io::MeshFile file, const std::string& path, const ReadingOption
 Input read_input(const std::string& path, const ReadingOptions& options) {
   ReadingOptions rest = options;
   io::MeshFile file = read_file(path, options);
-  if (take_to_sphere(file, path, options.projection)) rest.projection.clear();
+  take_to_sphere(file, path, rest.projection);
   return make_input(std::move(file), path, rest);
 }
 
@@ -279,10 +279,10 @@ void expect_projection_of_outline(const std::string& path, bool geographic, std:
   refuse_degrees(path, io::needs_projection(false, "--sphere"));
 }
 
-bool take_to_sphere(io::MeshFile& file, const std::string& path, const std::string& projection) {
-  const bool takes = file.is_surface() && projection.starts_with(io::kOntoSphere);
-  if (takes) take_to_map(file, path, projection);
-  return takes;
+void take_to_sphere(io::MeshFile& file, const std::string& path, std::string& projection) {
+  if (!file.is_surface() || !projection.starts_with(io::kOntoSphere)) return;
+  take_to_map(file, path, projection);
+  projection.clear();
 }
 
 void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection) {

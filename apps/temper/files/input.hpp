@@ -130,8 +130,8 @@ void expect_projection_of_outline(const std::string& path, bool geographic, std:
 /// are in degrees and none is chosen.
 void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection);
 
-/// Takes a surface that is nearly a sphere to the sphere, if the projection says so. False: it does nothing.
-bool take_to_sphere(io::MeshFile& file, const std::string& path, const std::string& projection);
+/// Takes a surface that is nearly a sphere to the sphere, if the projection says so, which is cleared then.
+void take_to_sphere(io::MeshFile& file, const std::string& path, std::string& projection);
 
 /// Edges that a user names. "all": all inside the mesh; "lines": those on tagged lines and between regions. Otherwise
 /// the path of a file with two vertices per line, in the numbers of the mesh file. Failure when the file cannot be

@@ -120,7 +120,7 @@ struct WeightsRecord {
                                           const tets::TetMesh& mesh);
 [[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const SurfaceInput& input,
                                           const surfaces::SurfaceMesh& mesh);
-/// Of an intrinsic triangle, by its number there.
+/// The text names a triangle by its number in the intrinsic triangulation.
 [[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const SurfaceInput& input,
                                           const surfaces::IntrinsicMesh& mesh);
 /// The triangle of a height.

@@ -68,7 +68,7 @@ Exit run_convert(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   io::MeshFile file = read_tried(s.input, s.heights.to_read(threads.get()));
-  if (take_to_sphere(file, s.input, s.projection)) s.projection.clear();
+  take_to_sphere(file, s.input, s.projection);
   command.expect_for(cells_of(file), s.input);
   const std::size_t merged = s.merge ? or_fail(io::merge_points(file, *s.merge)) : 0;
   const std::size_t flipped = s.flip_flat ? or_fail(io::flip_flat_triangles(file)) : 0;

@@ -97,8 +97,9 @@ void add_options(Command& command, DrawSettings& s) {
       "and y up from its middle.");
   add_number(command, "--width", s.options.width, kPositive, "Width of one panel, in CSS pixels.");
   add_text(command, "--title", "TEXT", s.options.title, "Title above the picture.");
-  for (const char* name : {"--view", "--no-dual", "--no-rings", "--weights", "--numbers", "--weight-scale"})
-    command.option(name).cells = std::string_view(name) == "--view" ? CellKinds::all_triangles : CellKinds::triangles;
+  command.option("--view").cells = CellKinds::all_triangles;
+  for (const char* name : {"--no-dual", "--no-rings", "--weights", "--numbers", "--weight-scale"})
+    command.option(name).cells = CellKinds::triangles;
   command.group("Help");
   command.add_help({"IN -o FILE [options]",
                     "  temper draw in.vtu -o mesh.svg\n"

@@ -222,7 +222,7 @@ void write(const Command& command, const DecSettings& s, SurfaceInput& input, co
   options.formats = formats;
   options.points = input.points;
   options.executor = executor;
-  record.files = or_fail(io::write_dec(s.output, mesh, complex, options));
+  record.files = or_fail(io::write_dec(s.output, mesh, complex, cells, options));
   s.json ? print_data(dec_json(record)) : print(dec_text(record));
 }
 

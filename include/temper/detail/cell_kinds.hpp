@@ -8,7 +8,7 @@ namespace temper {
 
 /// One kind, or a set of them: a bit for each.
 enum class CellKinds : unsigned {
-  triangles = 1,  ///< Of the plane or the sphere
+  triangles = 1,  ///< Triangles of the plane or the sphere
   tetrahedra = 2,
   both = 3,      ///< Triangles and tetrahedra
   surfaces = 4,  ///< Triangles of a curved surface
@@ -33,7 +33,7 @@ enum class CellKinds : unsigned {
   return kNames[static_cast<std::size_t>(kinds)];
 }
 
-/// What a mesh of one kind has: "triangles", "tetrahedra", "a curved surface".
+/// The content of a mesh of one kind, for messages: "triangles", "tetrahedra", "a curved surface".
 [[nodiscard]] constexpr std::string_view name_of_mesh(CellKinds kind) {
   return kind == CellKinds::surfaces ? "a curved surface" : name(kind);
 }

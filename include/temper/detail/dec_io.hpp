@@ -128,9 +128,10 @@ enum class DecKind { triangles, columns, tetrahedra };
                                                            const tets::DecComplex& complex,
                                                            const DecWriteOptions& options = {});
 
-/// Writes the operators of a curved surface in the same way, with its dual cells. Error: formats that need columns.
+/// Writes the operators of a curved surface in the same way; `cells` are its dual cells. Error: formats that need
+/// columns.
 [[nodiscard]] Expected<std::vector<std::string>> write_dec(const std::string& folder, const surfaces::SurfaceMesh& mesh,
-                                                           const DecComplex& complex,
+                                                           const DecComplex& complex, const PowerCells& cells,
                                                            const DecWriteOptions& options = {});
 
 /// Writes the operators of an intrinsic triangulation as NPZ alone. Its edges have lengths, and nothing has a place.

@@ -86,6 +86,14 @@ struct WantedOfChange {
   friend bool operator==(const WantedOfChange&, const WantedOfChange&) = default;
 };
 
+/// Where data at a change come from.
+template <class AnyPlace>
+struct FoundOfChange {
+  IdVector<VertexId, AnyPlace> places;
+  std::vector<std::size_t> sources;
+  CellOverlaps vertex_overlaps, cell_overlaps;
+};
+
 /// Takes the data of a file from its former mesh to a new one, and reports it. A Change tells about the two:
 ///   - its type Found with places, sources, vertex_overlaps and cell_overlaps, and the constant `dimension` of the
 ///   cells

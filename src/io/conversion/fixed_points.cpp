@@ -186,7 +186,7 @@ void fix_ends_of_tags(const MeshFile& file, std::span<const HalfedgeId> edges, M
   }
 }
 
-void fix_marked_points(const MeshFile& file, const VertexOfPoint& vertex, Mesh& mesh) {
+std::vector<VertexId> fixed_marks(const MeshFile& file, const VertexOfPoint& vertex, const Mesh& mesh) {
   IdVector<VertexId, std::uint8_t> marked(mesh.n_vertices());
   std::vector<TaggedVertex> marks;
   for (std::size_t i = 0; i < file.marked_points.size(); ++i) {
@@ -195,14 +195,16 @@ void fix_marked_points(const MeshFile& file, const VertexOfPoint& vertex, Mesh& 
     marks.emplace_back(static_cast<std::size_t>(v), file.marked_points.tags[i]);
     marked[marks.back().first] = 1;
   }
-  if (marks.empty() || std::find(marked.begin(), marked.end(), 0) == marked.end()) return;
+  if (marks.empty() || std::find(marked.begin(), marked.end(), 0) == marked.end()) return {};
   bool all_of_boundary = true;
   for (const HalfedgeId h : mesh.halfedges())
     all_of_boundary = all_of_boundary && (!mesh.is_boundary(h) || marked[mesh.origin(h)] != 0);
   const std::vector<std::int32_t> lists = tags_of_lists(file, vertex, mesh, marks, all_of_boundary);
+  std::vector<VertexId> fixed;
   for (const auto& [v, tag] : marks) {
-    if (!std::binary_search(lists.begin(), lists.end(), tag)) mesh.set_fixed(v, true);
+    if (!std::binary_search(lists.begin(), lists.end(), tag)) fixed.push_back(v);
   }
+  return fixed;
 }
 
 }  // namespace temper::io

@@ -19,13 +19,13 @@ namespace temper::io {
 /// the user's groups would change their shape. `edges`: of each line of the file; invalid: it is none of the mesh.
 void fix_ends_of_tags(const MeshFile& file, std::span<const HalfedgeId> edges, Mesh& mesh);
 
-/// Fixes marked points: they are places that the user chose, such as wells. But marks may also list vertices, and then
-/// they fix nothing:
+/// The vertices of marked points, which must not move: they are places that the user chose, such as wells. But marks
+/// may also list vertices, and then they fix nothing:
 ///   - if all vertices are marked
 ///   - tags of vertices of the boundary, if all of these are marked (Triangle)
 ///   - tags of lines that pass through one of their points, unless they have a name for points
 ///
 /// A tag of 0 is none. Pairs across levees stay opposite: they are fixed.
-void fix_marked_points(const MeshFile& file, const VertexOfPoint& vertex, Mesh& mesh);
+[[nodiscard]] std::vector<VertexId> fixed_marks(const MeshFile& file, const VertexOfPoint& vertex, const Mesh& mesh);
 
 }  // namespace temper::io

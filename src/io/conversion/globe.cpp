@@ -101,21 +101,21 @@ void warn_of_plane(MeshFile& file, const std::vector<Vec3>& points, const PlaneF
 }
 
 struct SphereFit {
-  std::size_t worst = 0, n_off = 0;  // n_off: too far off
-  double off = 0;
+  double radius = 0;
+  std::size_t n_off = 0;  // too far off
+  double off = 0;         // the largest distance
 };
 
 SphereFit most_off(const std::vector<Vec3>& points, double radius) {
-  SphereFit sphere;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double distance = length(points[i]), off = std::abs(distance - radius);
+  SphereFit sphere = {radius};
+  for (const Vec3 p : points) {
+    const double distance = length(p);
     if (is_off(distance, radius)) ++sphere.n_off;
-    if (off <= sphere.off) continue;
-    sphere.off = off;
-    sphere.worst = i;
+    sphere.off = std::max(sphere.off, std::abs(distance - radius));
   }
   return sphere;
 }
+SphereFit fit_sphere(const std::vector<Vec3>& points) { return most_off(points, median_distance(points)); }
 
 std::string two_digits(double value) {
   char digits[32];
@@ -126,46 +126,53 @@ std::string two_digits(double value) {
 constexpr double kOffOfExtent = 1e-3;  // largest distance from a sphere, over the extent of a part of it
 constexpr double kNearly = 0.01;       // of the extent or radius: then a sphere may be meant, not a surface
 
+/// The first point of a triangle that is so. Precondition: there is one.
+template <class Is>
+std::size_t find_used(const std::vector<Vec3>& points, const std::vector<bool>& used, const Is& is) {
+  for (std::size_t i = 0;; ++i) {
+    if (used[i] && is(points[i])) return i;
+  }
+}
+
+/// The point of a triangle that is farthest from the sphere.
+std::size_t worst_of(const SphereFit& sphere, const std::vector<Vec3>& points, const std::vector<bool>& used) {
+  return find_used(points, used, [&](Vec3 p) { return std::abs(length(p) - sphere.radius) == sphere.off; });
+}
+
 [[noreturn]] void fail_in_space(const std::vector<Vec3>& points, const std::vector<bool>& used, const PlaneFit& plane,
                                 const InputNames& names) {
   const std::vector<Vec3> all = kept(points, used);
-  const double radius = median_distance(all);
-  const SphereFit sphere = most_off(all, radius);
-  const auto find_used = [&](auto is) {
-    for (std::size_t i = 0;; ++i) {
-      if (used[i] && is(points[i])) return i;
-    }
-  };
+  const SphereFit sphere = fit_sphere(all);
+  const double radius = sphere.radius;
   constexpr std::string_view kExpected = "; expected all on one sphere around the origin, or in a plane of constant z";
   if (2 * sphere.n_off < all.size()) {
-    const std::size_t off = find_used([&](Vec3 p) { return is_off(length(p), radius); });
+    const std::size_t off = find_used(points, used, [&](Vec3 p) { return is_off(length(p), radius); });
     fail(ErrorCode::not_planar, names.point_where(off), names.point(off), " is ", length(points[off]),
          " from the origin, but most points are ", radius, kExpected);
   }
   if (sphere.off <= kNearly * extent(all)) {
-    const std::size_t worst = find_used([&](Vec3 p) { return std::abs(length(p) - radius) == sphere.off; });
+    const std::size_t worst = worst_of(sphere, points, used);
     fail(ErrorCode::not_planar, names.point_where(worst), names.point(worst), " is ", length(points[worst]),
          " from the origin, but the median of all is ", radius, ": off by ", two_digits(sphere.off / radius),
          " of it, and ", kOff, " is allowed", kExpected);
   }
   const double z = points[plane.first].z, allowed = kOff * extent(all);
-  const std::size_t off = find_used([&](Vec3 p) { return std::abs(p.z - z) > allowed; });
+  const std::size_t off = find_used(points, used, [&](Vec3 p) { return std::abs(p.z - z) > allowed; });
   fail(ErrorCode::not_planar, names.point_where(off), names.point(off), " has z = ", points[off].z, ", but ",
        names.point(plane.first), " has z = ", z,
        "; expected a mesh in a plane of constant x, y or z, or on a sphere around the origin. Next: --flat takes z as "
        "data of a mesh of the plane (flat=True in Python)");
 }
 
-/// The sphere that points are nearly on.
-struct NearSphere {
-  double radius = 0;
-  SphereFit fit;
-};
-std::optional<NearSphere> near_sphere(const std::vector<Vec3>& points) {
-  NearSphere sphere = {median_distance(points), {}};
-  sphere.fit = most_off(points, sphere.radius);
-  const double most = kNearly * std::min(sphere.radius, extent(points));
-  return sphere.radius > 0 && sphere.fit.off <= most ? std::optional(sphere) : std::nullopt;
+bool is_near(const SphereFit& sphere, const std::vector<Vec3>& points) {
+  return sphere.radius > 0 && sphere.off <= kNearly * std::min(sphere.radius, extent(points));
+}
+
+std::vector<Vec3> positions_of(const MeshFile& file) {
+  std::vector<Vec3> positions;
+  positions.reserve(file.points.size());
+  for (std::size_t i = 0; i < file.points.size(); ++i) positions.push_back(position_of(file, i));
+  return positions;
 }
 
 /// Says whether all triangles have one orientation when seen along z: the surface may be a bed.
@@ -184,22 +191,20 @@ void set_surface(MeshFile& file, const std::vector<Vec3>& points, const std::vec
   const auto warn = [&](const auto&... words) {
     file.warnings.push_back(text(file.path, file.path.empty() ? "" : ": ", words...));
   };
-  const double radius = median_distance(used);
-  const SphereFit fit = most_off(used, radius);
-  if (near_sphere(used)) {
-    warn("all points are on a sphere around the origin to ", two_digits(fit.off / radius), " of its radius and ",
+  const SphereFit fit = fit_sphere(used);
+  if (is_near(fit, used)) {
+    warn("all points are on a sphere around the origin to ", two_digits(fit.off / fit.radius), " of its radius and ",
          two_digits(fit.off / extent(used)), " of their extent. A mesh of the sphere has at most ", kOff, " and ",
          kOffOfExtent,
          ", so they are a curved surface. Next: --projection sphere moves them to the sphere "
          "(projection=\"sphere\" in Python)");
   } else if (fit.n_off > 0 && 2 * fit.n_off < used.size()) {
-    warn("most points are ", radius, " from the origin, but ", fit.n_off, fit.n_off == 1 ? " is" : " are",
+    warn("most points are ", fit.radius, " from the origin, but ", fit.n_off, fit.n_off == 1 ? " is" : " are",
          " not: they are a curved surface");
   } else if (is_graph(file, points)) {
     warn(
         "z differs, so the mesh is a curved surface. Next: if z is a height or a depth, --flat takes the mesh as one "
-        "of "
-        "the plane (flat=True in Python)");
+        "of the plane (flat=True in Python)");
   }
   put_in_space(file, points, 2);
 }
@@ -250,30 +255,24 @@ void put_in_space(MeshFile& file, std::span<const Vec3> points, int dimension) {
 }
 
 void take_to_sphere(MeshFile& file, std::optional<double> radius, const InputNames& names) {
-  std::vector<Vec3> points;
-  for (std::size_t i = 0; i < file.points.size(); ++i) points.push_back(position_of(file, i));
+  std::vector<Vec3> points = positions_of(file);
   const std::vector<bool> used = corners_among(points.size(), file.triangles);
   const std::vector<Vec3> all = kept(points, used);
-  const auto sphere = near_sphere(all);
-  if (!sphere) {
-    const double median = median_distance(all);
-    std::size_t worst = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto off = [&](std::size_t p) { return used[p] ? std::abs(length(points[p]) - median) : -1; };
-      if (off(i) > off(worst)) worst = i;
-    }
+  const SphereFit sphere = fit_sphere(all);
+  if (!is_near(sphere, all)) {
+    const std::size_t worst = worst_of(sphere, points, used);
     fail(ErrorCode::not_planar, names.point_where(worst), names.point(worst), " is ", length(points[worst]),
-         " from the origin, but the median of all is ", median, "; expected all within ", kNearly,
+         " from the origin, but the median of all is ", sphere.radius, "; expected all within ", kNearly,
          " of a sphere around the origin. Next: leave out the projection, for a curved surface");
   }
-  const double to = radius.value_or(sphere->radius);
+  const double to = radius.value_or(sphere.radius);
   for (Vec3& p : points) {
     const double distance = length(p);
     p = distance > 0 ? (to / distance) * p : Vec3{0, 0, to};  // only a point of no triangle is at the center
   }
-  for (double& w : file.weights) w *= (to / sphere->radius) * (to / sphere->radius);
+  for (double& w : file.weights) w *= (to / sphere.radius) * (to / sphere.radius);
   file.warnings.push_back(text(file.path.empty() ? "" : file.path + ": ", "points are moved to the sphere of radius ",
-                               to, ", by ", two_digits(sphere->fit.off / sphere->radius), " of the radius at most"));
+                               to, ", by ", two_digits(sphere.off / sphere.radius), " of the radius at most"));
   set_sphere(file, to, std::move(points));
 }
 
@@ -326,8 +325,7 @@ Expected<void> expect_no_surface(const MeshFile& file) {
   const InputNames from_0;
   const InputNames& names = file.numbering ? *file.numbering : from_0;
   return guarded<void>(file.path, [&] {
-    std::vector<Vec3> points;
-    for (std::size_t i = 0; i < file.points.size(); ++i) points.push_back(position_of(file, i));
+    const std::vector<Vec3> points = positions_of(file);
     const std::vector<bool> used = corners_among(points.size(), file.triangles);
     fail_in_space(points, used, fit_plane(points, used), names);
   });
@@ -343,11 +341,10 @@ Expected<void> set_points(MeshFile& file, std::vector<Vec3> points) {
 }
 
 std::optional<double> common_radius(const std::vector<Vec3>& points) {
-  const double radius = median_distance(points);
-  if (!(radius > 0)) return std::nullopt;
-  const SphereFit fit = most_off(points, radius);
-  // Of a small surface far from the origin all distances are nearly equal, too.
-  if (fit.n_off > 0 || fit.off > kOffOfExtent * extent(points)) return std::nullopt;
+  const SphereFit fit = fit_sphere(points);
+  const double radius = fit.radius;
+  // A small surface far from the origin has nearly equal distances, too.
+  if (!(radius > 0) || fit.n_off > 0 || fit.off > kOffOfExtent * extent(points)) return std::nullopt;
   // A radius that a person wrote has few digits.
   const double places = 11 - std::floor(std::log10(radius)), power = std::pow(10, std::abs(places));
   const double rounded = places > 0 ? std::round(radius * power) / power : std::round(radius / power) * power;

@@ -98,7 +98,7 @@ class MeshMaker {
     keep_quadrilaterals();
     keep_flagged_faces();
     fix_ends_of_tags(file_, edges_, loaded_.mesh);
-    fix_marked_points(file_, loaded_.vertex_of_point, loaded_.mesh);
+    for (const VertexId v : fixed_marks(file_, loaded_.vertex_of_point, loaded_.mesh)) loaded_.mesh.set_fixed(v, true);
     return std::move(loaded_);
   }
 

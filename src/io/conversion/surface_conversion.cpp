@@ -35,9 +35,7 @@ class SurfaceMaker {
     loaded_.edge_lines = std::move(lines.edge_lines);
     for (const HalfedgeId h : lines.constrained) loaded_.mesh.set_constrained(h, true);
     for (std::string& warning : lines.warnings) warn(std::move(warning));
-    Mesh marked = loaded_.mesh.connectivity();
-    fix_marked_points(file_, vertex, marked);
-    for (const VertexId v : marked.vertices()) loaded_.mesh.set_fixed(v, marked.is_fixed(v));
+    for (const VertexId v : fixed_marks(file_, vertex, loaded_.mesh.connectivity())) loaded_.mesh.set_fixed(v, true);
     return std::move(loaded_);
   }
 
@@ -81,11 +79,7 @@ class SurfaceMaker {
 class SurfaceChange {
  public:
   static constexpr int dimension = 2;
-  struct Found {
-    IdVector<VertexId, Place> places;
-    std::vector<std::size_t> sources;
-    CellOverlaps vertex_overlaps, cell_overlaps;
-  };
+  using Found = FoundOfChange<Place>;
 
   SurfaceChange(const surfaces::SurfaceMesh& before, const surfaces::SurfaceMesh& mesh)
       : before_(before), mesh_(mesh) {}

@@ -27,11 +27,7 @@ namespace {
 class TriangleChange {
  public:
   static constexpr int dimension = 2;
-  struct Found {
-    IdVector<VertexId, Place> places;
-    std::vector<std::size_t> sources;
-    CellOverlaps vertex_overlaps, cell_overlaps;
-  };
+  using Found = FoundOfChange<Place>;
 
   TriangleChange(const MeshFile& file, const Mesh& mesh, Executor* executor)
       : file_(file), mesh_(mesh), executor_(executor) {}
@@ -83,11 +79,7 @@ class TriangleChange {
 class TetChange {
  public:
   static constexpr int dimension = 3;
-  struct Found {
-    IdVector<VertexId, tets::Place> places;
-    std::vector<std::size_t> sources;
-    CellOverlaps vertex_overlaps, cell_overlaps;
-  };
+  using Found = FoundOfChange<tets::Place>;
 
   TetChange(const tets::TetMesh& before, const tets::TetMesh& mesh, Executor* executor)
       : before_(before), mesh_(mesh), executor_(executor) {}

@@ -149,8 +149,8 @@ Expected<std::vector<std::string>> write_dec(const std::string& folder, const Me
 }
 
 Expected<std::vector<std::string>> write_dec(const std::string& folder, const surfaces::SurfaceMesh& mesh,
-                                             const DecComplex& complex, const DecWriteOptions& options) {
-  const PowerCells cells = dual_cells(mesh, complex);
+                                             const DecComplex& complex, const PowerCells& cells,
+                                             const DecWriteOptions& options) {
   return guarded<std::vector<std::string>>(
       folder, [&] { return write_dec_or_throw<DecJob>(folder, options, mesh.connectivity(), complex, cells, &mesh); });
 }

@@ -26,7 +26,7 @@ class TrialMemo {
   [[nodiscard]] Results& at(const Neighborhood& around);
 
  private:
-  // At about 5 kB. Hardly a search comes back after so many other places.
+  // A place takes about 5 kB. After so many other places, searches rarely come back.
   static constexpr std::size_t kMostPlaces = 4096;
 
   std::unordered_map<std::string, Results> places_;
