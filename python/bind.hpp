@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "convert.hpp"
+#include "temper/detail/cell_kinds.hpp"
 #include "temper/detail/discretization_error.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/progress.hpp"
 #include "temper/detail/tensor.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
+#include "temper/surfaces.hpp"
 #include "temper/tets/quality.hpp"
 #include "temper/tets/weights.hpp"
 
@@ -98,24 +100,45 @@ class PyMesh {
   bool erased_ = false, running_ = false;
 };
 
-/// A mesh of tetrahedra, and its file. Views and calls without the GIL share both, and a change replaces them.
-struct PyTetMesh {
+/// A mesh of points in space, and its file. Views and calls without the GIL share both, and a change replaces them.
+template <class Loaded>
+struct PySpaceMesh {
   std::shared_ptr<const io::MeshFile> file;
-  std::shared_ptr<const io::LoadedTetMesh> loaded;
+  std::shared_ptr<const Loaded> loaded;
   std::vector<std::int32_t> vertex_of_point;  ///< Present vertex of each point in the original file; −1: none
   MeshDataRules data_rules = {};
   std::uint64_t version = 0;  ///< Number of changes
   bool running = false;
 
-  [[nodiscard]] const tets::TetMesh& mesh() const { return loaded->mesh; }
+  [[nodiscard]] const auto& mesh() const { return loaded->mesh; }
+  [[nodiscard]] auto read() const { return std::shared_ptr<const decltype(Loaded::mesh)>(loaded, &loaded->mesh); }
+};
+using PyTetMesh = PySpaceMesh<io::LoadedTetMesh>;
+using PySurface = PySpaceMesh<io::LoadedSurface>;
+
+/// A triangulation of a surface whose edges were flipped on it, with its weights.
+struct PyIntrinsic {
+  std::shared_ptr<const surfaces::IntrinsicMesh> mesh;
 };
 
 /// The mesh gets a new state, with its file. `corner_weights`: of tetrahedra with several tensors.
 io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins& origins, Executor* executor,
                        const std::vector<double>& corner_weights = {});
+io::DataReport replace(PySurface& self, surfaces::SurfaceMesh mesh, const IdVector<VertexId, VertexId>& vertices = {});
 
 /// The mesh of a file, and the warnings.
 [[nodiscard]] py::tuple load_tetrahedra(io::MeshFile file, Executor* executor);
+[[nodiscard]] py::tuple load_surface(io::MeshFile file, const std::vector<std::string>& fixed_tags);
+
+[[nodiscard]] constexpr CellKinds cells_of(const Mesh& /*mesh*/) { return CellKinds::triangles; }
+[[nodiscard]] constexpr CellKinds cells_of(const tets::TetMesh& /*mesh*/) { return CellKinds::tetrahedra; }
+[[nodiscard]] constexpr CellKinds cells_of(const surfaces::SurfaceMesh& /*mesh*/) { return CellKinds::surfaces; }
+
+/// Halfedges, corners, flags and weights of triangles.
+[[nodiscard]] inline std::shared_ptr<const Mesh> connectivity_of(const PyMesh& self) { return self.read_with_erased(); }
+[[nodiscard]] inline std::shared_ptr<const Mesh> connectivity_of(const PySurface& self) {
+  return {self.loaded, &self.mesh().connectivity()};
+}
 
 /// Returns the result of `work`, and releases the GIL meanwhile.
 template <class Work>
@@ -203,6 +226,9 @@ void require_no_period(const Mesh& mesh, std::string_view what);
 /// Gives a class of meshes the methods that read and set the rules of its data.
 template <class AnyMesh>
 void define_data_rules(py::class_<AnyMesh>& type);
+/// Gives a class of meshes of triangles their arrays, searches and marks.
+template <class AnyMesh>
+void define_triangles(py::class_<AnyMesh>& type);
 
 VertexId vertex_id(const Mesh& mesh, std::int64_t index);
 TriangleId triangle_id(const Mesh& mesh, std::int64_t index);
@@ -211,6 +237,7 @@ HalfedgeId halfedge_id(const Mesh& mesh, std::int64_t index);
 void bind_mesh(py::module_& m);
 void bind_files(py::module_& m);
 void bind_tets(py::module_& m);
+void bind_surfaces(py::module_& m);
 void bind_generate(py::module_& m);
 void bind_geometry(py::module_& m);
 void bind_change(py::module_& m);

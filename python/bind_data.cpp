@@ -1,4 +1,4 @@
-// Rules by which data follow a mesh that changes, once for triangles and tetrahedra. See io::DataRules.
+// Rules by which data follow a mesh that changes, once for all kinds of meshes. See io::DataRules.
 #include <algorithm>
 #include <utility>
 
@@ -10,20 +10,22 @@ namespace {
 
 /// The file that has the data of a mesh, or null.
 const io::MeshFile* file_with_data(const PyMesh& self) { return self.source() ? &self.source()->file : nullptr; }
-const io::MeshFile* file_with_data(const PyTetMesh& self) { return self.file.get(); }
-
-const MeshDataRules& rules_of(const PyMesh& self) { return self.data_rules(); }
-const MeshDataRules& rules_of(const PyTetMesh& self) { return self.data_rules; }
-
-void set_rules(PyMesh& self, MeshDataRules rules) { self.set_data_rules(std::move(rules)); }
-void set_rules(PyTetMesh& self, MeshDataRules rules) {
-  refuse_while_running(self.running);
-  self.data_rules = std::move(rules);
+template <class Loaded>
+const io::MeshFile* file_with_data(const PySpaceMesh<Loaded>& self) {
+  return self.file.get();
 }
 
-/// The data of the cells that the mesh of a file has.
-const std::vector<io::DataArray>& cell_data_of(const io::MeshFile& file) {
-  return file.dimension() == 3 ? file.tetrahedra.data : file.triangles.data;
+const MeshDataRules& rules_of(const PyMesh& self) { return self.data_rules(); }
+template <class Loaded>
+const MeshDataRules& rules_of(const PySpaceMesh<Loaded>& self) {
+  return self.data_rules;
+}
+
+void set_rules(PyMesh& self, MeshDataRules rules) { self.set_data_rules(std::move(rules)); }
+template <class Loaded>
+void set_rules(PySpaceMesh<Loaded>& self, MeshDataRules rules) {
+  refuse_while_running(self.running);
+  self.data_rules = std::move(rules);
 }
 
 void erase_rules_of_absent(io::DataRules& rules, const std::vector<io::DataArray>& arrays) {
@@ -52,8 +54,12 @@ void define_data_rules(py::class_<AnyMesh>& type) {
   });
   type.def("set_data_rules", [](AnyMesh& self, bool of_points, const py::sequence& words) {
     MeshDataRules rules = rules_of(self);
+    const std::vector<std::string> given = strings_from(words);
     (of_points ? rules.of_points : rules.of_cells) =
-        or_raise(io::parse_data_rules(strings_from(words), of_points ? io::DataOf::points : io::DataOf::cells));
+        or_raise(io::parse_data_rules(given, of_points ? io::DataOf::points : io::DataOf::cells));
+    const auto conserves = [](const std::string& word) { return word.starts_with("conserve"); };
+    if (std::is_same_v<AnyMesh, PySurface> && std::ranges::any_of(given, conserves))
+      fail(ErrorCode::unsupported, "data are not conserved on curved surfaces. Next: leave out conserve");
     const io::MeshFile* const file = file_with_data(self);
     check_data_rules(rules, file == nullptr ? io::MeshFile() : *file);
     set_rules(self, std::move(rules));
@@ -61,5 +67,6 @@ void define_data_rules(py::class_<AnyMesh>& type) {
 }
 template void define_data_rules(py::class_<PyMesh>&);
 template void define_data_rules(py::class_<PyTetMesh>&);
+template void define_data_rules(py::class_<PySurface>&);
 
 }  // namespace temper::python

@@ -52,31 +52,51 @@ struct PyDec {
     return pieces ? mapped_back(std::move(made), *pieces) : made;
   }
   [[nodiscard]] const Mesh& as_measured() const { return pieces ? pieces->mesh : *mesh; }
+  [[nodiscard]] auto owner() const { return std::make_unique<PyMesh>(Mesh(*mesh)); }
+  [[nodiscard]] DecSummary summary() const { return summarize(as_measured(), *complex); }
 };
+
+struct PySurfaceDec {
+  PySurface surface;
+  std::shared_ptr<const surfaces::SurfaceMesh> mesh;
+  Complex complex;
+
+  [[nodiscard]] PowerCells cells() const { return dual_cells(*mesh, *complex); }
+  [[nodiscard]] PySurface owner() const { return surface; }
+  [[nodiscard]] DecSummary summary() const { return summarize(*mesh, *complex); }
+};
+
+template <class AnyMesh>
+DecComplex operators_of(const AnyMesh& mesh, std::span<const double> coefficient) {
+  DecComplex plain = dec_operators(mesh);
+  return coefficient.empty() ? std::move(plain) : or_raise(with_coefficient(mesh, std::move(plain), coefficient));
+}
 
 /// `coefficient`: one value per triangle, or none at all.
 PyDec make_dec(const PyMesh& self, const py::object& tensor, const Doubles& coefficient) {
   const auto mesh = self.read();
   const std::span<const double> k = as_span<double>(coefficient);
-  const auto operators = [k](const Mesh& measured) {
-    DecComplex plain = dec_operators(measured);
-    return k.empty() ? std::move(plain) : or_raise(with_coefficient(measured, std::move(plain), k));
-  };
   if (tensor.is_none()) {
     const py::gil_scoped_release release;
-    const auto complex = std::make_shared<const DecComplex>(operators(*mesh));
+    const auto complex = std::make_shared<const DecComplex>(operators_of(*mesh, k));
     return {mesh, nullptr, complex, complex};
   }
   const auto given = tensors_from<Tensor>(tensor);
   const py::gil_scoped_release release;
   auto pieces = std::make_shared<const MetricMesh>(in_metric(*mesh, given));
-  const auto measured = std::make_shared<const DecComplex>(operators(pieces->mesh));
+  const auto measured = std::make_shared<const DecComplex>(operators_of(pieces->mesh, k));
   return {mesh, pieces, measured, std::make_shared<const DecComplex>(mapped_back(*measured, *pieces, *mesh))};
 }
 
-py::dict dec_to_dict(const PyDec& d) {
-  const py::object owner = keep(d.complex);
-  const DecComplex& c = *d.complex;
+PySurfaceDec make_surface_dec(const PySurface& self, const py::object& /*tensor*/, const Doubles& coefficient) {
+  const auto mesh = self.read();
+  const std::span<const double> k = as_span<double>(coefficient);
+  return {self, mesh, aside([&] { return std::make_shared<const DecComplex>(operators_of(*mesh, k)); })};
+}
+
+py::dict dec_to_dict(const Complex& complex) {
+  const py::object owner = keep(complex);
+  const DecComplex& c = *complex;
   return Record()("edges", edges_to_dict(owner, c))(
              "edge_of_halfedge",
              view(py::dtype::of<std::int32_t>(), {static_cast<py::ssize_t>(c.edge_of_halfedge.size())}, {4},
@@ -91,7 +111,8 @@ py::dict dec_to_dict(const PyDec& d) {
       .dict;
 }
 
-py::dict cells_to_dict(const PyDec& d) {
+template <class Dec>
+py::dict cells_to_dict(const Dec& d) {
   auto cells = aside([&] { return std::make_shared<const PowerCells>(d.cells()); });
   const py::object owner = keep(cells);
   const PowerCells& c = *cells;
@@ -101,19 +122,50 @@ py::dict cells_to_dict(const PyDec& d) {
       .dict;
 }
 
-void bind_operators(py::module_& m) {
-  py::class_<PyDec>(m, "DecComplex")
-      .def("mesh", [](const PyDec& d) { return std::make_unique<PyMesh>(Mesh(*d.mesh)); })
-      .def("arrays", dec_to_dict)
-      .def("summarize", [](const PyDec& d) { return report_to_python(summarize(d.as_measured(), *d.complex)); })
-      .def("power_cells", cells_to_dict)
+template <class Dec>
+void bind_complex(py::module_& m, const char* name) {
+  py::class_<Dec>(m, name)
+      .def("mesh", [](const Dec& d) { return d.owner(); })
+      .def("arrays", [](const Dec& d) { return dec_to_dict(d.complex); })
+      .def("summarize", [](const Dec& d) { return report_to_python(d.summary()); })
+      .def("power_cells", cells_to_dict<Dec>)
       .def("write",
-           [](const PyDec& d, const std::string& folder, const py::sequence& formats, const py::object& threads) {
+           [](const Dec& d, const std::string& folder, const py::sequence& formats, const py::object& threads) {
              return to_python(write_files(formats, threads, [&](const io::DecWriteOptions& options) {
                return io::write_dec(folder, *d.mesh, *d.complex, d.cells(), options);
              }));
            });
+}
+
+// --- of intrinsic triangulations --------------------------------------------------------------------------------
+
+py::dict intrinsic_to_dict(const PyIntrinsic& self) {
+  const auto complex = std::make_shared<const DecComplex>(dec_operators(*self.mesh));
+  std::vector<std::array<VertexId, 3>> triangles;
+  std::vector<double> weights;
+  for (const TriangleId t : self.mesh->connectivity().triangles())
+    triangles.push_back(self.mesh->connectivity().corners(t));
+  for (const VertexId v : self.mesh->connectivity().vertices()) weights.push_back(self.mesh->weight(v));
+  return Record{dec_to_dict(complex)}(
+             "triangles", rows_of<VertexId>(std::span<const std::array<VertexId, 3>>(triangles)))("weights", weights)
+      .dict;
+}
+
+void bind_intrinsic(py::module_& m) {
+  py::class_<PyIntrinsic>(m, "IntrinsicMesh")
+      .def("arrays", intrinsic_to_dict)
+      .def("write", [](const PyIntrinsic& self, const std::string& folder) {
+        return to_python(
+            or_raise(aside([&] { return io::write_dec(folder, *self.mesh, dec_operators(*self.mesh), {}); })));
+      });
+}
+
+void bind_operators(py::module_& m) {
+  bind_complex<PyDec>(m, "DecComplex");
+  bind_complex<PySurfaceDec>(m, "SurfaceDecComplex");
   m.def("dec_operators", make_dec);
+  m.def("dec_operators", make_surface_dec);
+  bind_intrinsic(m);
 }
 
 // --- of tetrahedra ----------------------------------------------------------------------------------------------

@@ -4,9 +4,7 @@
 #include <utility>
 #include <variant>
 
-#include "bind.hpp"
-#include "data_arrays.hpp"
-#include "reports.hpp"
+#include "space_mesh.hpp"
 #include "temper/detail/file_cures.hpp"
 
 namespace temper::python {
@@ -55,9 +53,17 @@ UpdatedFile updated(const PyMesh& self, io::MeshFile former, Executor* executor 
   return result;
 }
 
-io::MeshFile former_file_of(const PyMesh& self) { return self.source() ? self.source()->file : io::MeshFile(); }
+UpdatedFile updated(const PySurface& self, io::MeshFile former, Executor* executor = nullptr) {
+  UpdatedFile result{std::move(former), {}};
+  result.data = io::update(result.file, *self.loaded, self.mesh(), {}, self.data_rules.options(executor));
+  return result;
+}
 
-UpdatedFile updated_file_of(const PyMesh& self, Executor* executor) {
+io::MeshFile former_file_of(const PyMesh& self) { return self.source() ? self.source()->file : io::MeshFile(); }
+io::MeshFile former_file_of(const PySurface& self) { return *self.file; }
+
+template <class AnyMesh>
+UpdatedFile updated_file_of(const AnyMesh& self, Executor* executor) {
   return updated(self, former_file_of(self), executor);
 }
 
@@ -111,24 +117,27 @@ py::object data_report(const PyMesh& self, const py::object& threads) {
   return report_to_python(r);
 }
 
-/// The contents of a file that Python gets unchanged. Points are not included, because they may be in the plane or on a
-/// sphere.
+/// The contents of a file that Python gets unchanged. Points are not included, because they may have two coordinates or
+/// three.
 Record arrays_of(const io::MeshFile& file) {
   return contents_of(file)("triangles",
                            rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)));
 }
 
+PyMesh copy_of_mesh(const PyMesh& self) { return self.copy(); }
+PySurface copy_of_mesh(const PySurface& self) { return self; }
+
 /// The file of the mesh as it is now. Without data of points and triangles, nothing has to be interpolated.
-py::dict file_as_dict(const PyMesh& self, bool with_data) {
-  const PyMesh same = self.copy();
+template <class AnyMesh>
+py::dict file_as_dict(const AnyMesh& self, bool with_data) {
+  const AnyMesh same = copy_of_mesh(self);
   io::MeshFile former = former_file_of(self);
   if (!with_data) former.point_data.clear(), former.triangles.data.clear();
   io::MeshFile file = aside([&] { return updated(same, std::move(former)).file; });
   std::vector<Vec3> places;
   if (file.sphere() != nullptr) places = file.sphere()->places;
-  if (places.empty()) {
-    for (const Vec2 p : file.points) places.push_back({p.x, p.y, file.z()});
-  }
+  for (std::size_t p = places.size(); p < file.points.size(); ++p)
+    places.push_back(file.is_surface() ? file.place(p) : Vec3{file.points[p].x, file.points[p].y, file.z()});
   return arrays_of(file)("points", rows_of<double>(std::span<const Vec3>(places))).dict;
 }
 
@@ -160,7 +169,8 @@ io::MeshFile file_of_arrays(const py::dict& d, std::size_t n_points) {
   return file;
 }
 
-py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tags) {
+/// `curved`: a curved surface is no error.
+py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tags, bool curved) {
   const auto points = d["points"].cast<Doubles>();
   io::MeshFile file = file_of_arrays(d, static_cast<std::size_t>(points.shape(0)));
   if (points.shape(1) == 3) {
@@ -168,6 +178,7 @@ py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tag
   } else {
     file.points = copy_of<Vec2>(points);
   }
+  if (curved && file.is_surface()) return load_surface(std::move(file), strings_from(fixed_tags));
   return load(std::move(file), {}, strings_from(fixed_tags), nullptr);
 }
 
@@ -192,10 +203,14 @@ py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, con
     }
     return load_tetrahedra(std::move(file), executor.get());
   }
-  return load(std::move(file), projection, tags, executor.get());
+  const bool onto_sphere = file.is_surface() && projection.starts_with(io::kOntoSphere);
+  if (onto_sphere) or_raise(io::project(file, projection));
+  if (file.is_surface() && projection.empty()) return load_surface(std::move(file), tags);
+  return load(std::move(file), onto_sphere ? std::string() : projection, tags, executor.get());
 }
 
-py::object write_file(const std::string& path, const PyMesh& self, const std::string& format,
+template <class AnyMesh>
+py::object write_file(const std::string& path, const AnyMesh& self, const std::string& format,
                       const std::string& encoding, bool triangle_quality, const py::object& threads,
                       const std::string& cells) {
   const auto executor = make_threads(threads_from(threads));
@@ -205,7 +220,7 @@ py::object write_file(const std::string& path, const PyMesh& self, const std::st
   options.triangle_quality = triangle_quality;
   if (!cells.empty()) options.cells = from_name<CellsOf>("cells", cells);
   options.executor = executor.get();
-  const PyMesh same = self.copy();
+  const AnyMesh same = copy_of_mesh(self);
   return to_python(aside([&] {
     io::MeshFile file = updated_file_of(same, executor.get()).file;
     const auto written = or_raise(io::write(path, file, options));
@@ -322,22 +337,27 @@ std::vector<PhysicalName> physical_names_from(const py::handle& names) {
 
 void bind_files(py::module_& m) {
   m.def("read", read_file);
-  m.def("write", write_file);
+  m.def("write", write_file<PyMesh>);
+  m.def("write", write_file<PySurface>);
   m.def("mesh_from_file_arrays", mesh_from_file_arrays);
-  m.def("file_as_dict", file_as_dict);
+  m.def("file_as_dict", file_as_dict<PyMesh>);
+  m.def("file_as_dict", file_as_dict<PySurface>);
   m.def("data_report", data_report);
   m.def("set_data", set_data);
+  m.def("set_data", set_space_data<io::LoadedSurface>);
   m.def("vertices_of_points", vertices_of_points);
+  m.def("vertices_of_points", [](const PySurface& self) { return array_of<std::int32_t>(self.vertex_of_point); });
   m.def("source_as_dict", source_as_dict);
   m.def("set_source_from_dict", set_source_from_dict);
   m.def("write_text", [](const std::string& path, const std::string& text) { or_raise(io::write_text(path, text)); });
   m.def("formats", [] {
     py::list list;
     for (const io::Format& f : io::formats()) {
-      list.append(Record()("name", f.name)("description", f.description)("suffixes", f.suffixes)("writes", f.writes)(
-                      "holds_weights", f.holds_weights)("holds_planes", f.holds_planes)(
-                      "holds_spheres", f.holds_spheres)("holds_tetrahedra", f.holds_tetrahedra)
-                      .dict);
+      list.append(
+          Record()("name", f.name)("description", f.description)("suffixes", f.suffixes)("writes", f.writes)(
+              "holds_weights", f.holds_weights)("holds_planes", f.holds_planes)("holds_spheres", f.holds_spheres)(
+              "holds_tetrahedra", f.holds_tetrahedra)("holds_surfaces", f.holds_surfaces)
+              .dict);
     }
     return list;
   });

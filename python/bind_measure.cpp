@@ -21,7 +21,8 @@ namespace {
 
 // --- quality and energies ---------------------------------------------------------------------------------------
 
-py::dict triangle_quality_to_dict(const PyMesh& self) {
+template <class AnyMesh>
+py::dict triangle_quality_to_dict(const AnyMesh& self) {
   const auto mesh = self.read();
   const Shape n{static_cast<py::ssize_t>(mesh->n_triangles())};
   py::array_t<bool> well_centered(n);
@@ -97,7 +98,14 @@ void bind_energy(py::module_& m) {
   m.def("quality_measures", [](bool tetrahedra) {
     return tetrahedra ? measures_list(tets::quality_measures()) : measures_list(quality_measures());
   });
-  m.def("triangle_quality", triangle_quality_to_dict);
+  // Energies of surfaces are not measured.
+  m.def("quality", [](const PySurface& self, const py::object& /*gamma*/, const py::object& /*h0*/, std::size_t worst,
+                      const py::object& /*threads*/) {
+    const auto mesh = self.read();
+    return report_to_python(aside([&] { return surfaces::quality(*mesh, worst); }));
+  });
+  m.def("triangle_quality", triangle_quality_to_dict<PyMesh>);
+  m.def("triangle_quality", triangle_quality_to_dict<PySurface>);
   m.def("energies", energies_list);
   m.def("total_energy", [](const PyMesh& self, const py::dict& model, const py::object& threads) {
     const EnergyModel energy = model_from(model);
@@ -157,6 +165,12 @@ void bind_draw(py::module_& m) {
       fail(ErrorCode::unsupported, "one mesh is of the plane and the other of a sphere; expected two of a kind");
     }
     return draw_before_after_svg(*left, *right, draw_options_from(options));
+  });
+  m.def("draw_svg", [](const PySurface& self, const py::dict& options) {
+    return draw_svg(*self.read(), draw_options_from(options));
+  });
+  m.def("draw_before_after_svg", [](const PySurface& before, const PySurface& after, const py::dict& options) {
+    return draw_before_after_svg(*before.read(), *after.read(), draw_options_from(options));
   });
   m.def("tet_draw_svg", [](const PyTetMesh& self, const PyTetMesh* before, int axis, const py::object& at,
                            const py::dict& options) {

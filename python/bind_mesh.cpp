@@ -185,17 +185,33 @@ void set_vertices(PyMesh& self, const Doubles& values, Assigned what) {
   self.replace(std::move(mesh), {});
 }
 
-void set_fixed(PyMesh& self, const Int64s& vertices) {
-  std::vector<VertexId> ids;
-  for (const std::int64_t v : as_span<std::int64_t>(vertices)) ids.push_back(vertex_id(*self.read(), v));
-  Mesh& mesh = self.change();
-  for (const VertexId v : mesh.vertices()) mesh.set_fixed(v, false);
-  for (const VertexId v : ids) mesh.set_fixed(v, true);
+/// Calls f with the mesh for changes.
+template <class F>
+void change(PyMesh& self, const F& f) {
+  f(self.change());
+}
+template <class F>
+void change(PySurface& self, const F& f) {
+  const Run run(self.running);
+  surfaces::SurfaceMesh mesh = self.mesh();
+  f(mesh);
+  replace(self, std::move(mesh));
 }
 
-void set_constrained(PyMesh& self, const Int64s& edges, bool constrained) {
+template <class AnyMesh>
+void set_fixed(AnyMesh& self, const Int64s& vertices) {
+  std::vector<VertexId> ids;
+  for (const std::int64_t v : as_span<std::int64_t>(vertices)) ids.push_back(vertex_id(*connectivity_of(self), v));
+  change(self, [&](auto& mesh) {
+    for (const VertexId v : mesh.vertices()) mesh.set_fixed(v, false);
+    for (const VertexId v : ids) mesh.set_fixed(v, true);
+  });
+}
+
+template <class AnyMesh>
+void set_constrained(AnyMesh& self, const Int64s& edges, bool constrained) {
   std::vector<HalfedgeId> halfedges;
-  const auto before = self.read();
+  const auto before = connectivity_of(self);
   for (const auto& [a, b] : as_span<std::array<std::int64_t, 2>>(edges)) {
     const VertexId from = vertex_id(*before, a), to = vertex_id(*before, b);
     HalfedgeId h = before->find_halfedge(from, to);
@@ -205,14 +221,12 @@ void set_constrained(PyMesh& self, const Int64s& edges, bool constrained) {
     }
     halfedges.push_back(h);
   }
-  Mesh& mesh = self.change();
-  for (const HalfedgeId h : halfedges) mesh.set_constrained(h, constrained);
+  change(self, [&](auto& mesh) {
+    for (const HalfedgeId h : halfedges) mesh.set_constrained(h, constrained);
+  });
 }
 
-void bind_sizes_and_space(py::class_<PyMesh>& type) {
-  type.def("n_vertices", [](const PyMesh& self) { return self.read_with_erased()->n_vertices(); });
-  type.def("n_triangles", [](const PyMesh& self) { return self.read_with_erased()->n_triangles(); });
-  type.def("n_edges", [](const PyMesh& self) { return self.read_with_erased()->n_edges(); });
+void bind_space(py::class_<PyMesh>& type) {
   type.def("memory_bytes", [](const PyMesh& self) { return self.read_with_erased()->memory_bytes(); });
   type.def("require_plane",
            [](const PyMesh& self, const std::string& what) { require_plane(*self.read_with_erased(), what); });
@@ -223,28 +237,8 @@ void bind_sizes_and_space(py::class_<PyMesh>& type) {
     return py::make_tuple(period.x, period.y);
   });
   type.def("radius", [](const PyMesh& self) { return self.read_with_erased()->space().radius(); });
-}
-
-void bind_arrays(py::class_<PyMesh>& type) {
   type.def("weighted_vectors", [](const PyMesh& self) { return weighted_vectors_of(self.read_with_erased()); });
   type.def("points", [](const PyMesh& self) { return points_of(self.read_with_erased()); });
-  type.def("weights", [](const PyMesh& self) { return weights_of(self.read_with_erased()); });
-  type.def("triangles", [](const PyMesh& self) { return triangles_of(self.read_with_erased()); });
-  type.def("twins", [](const PyMesh& self) { return twins_of(self.read_with_erased()); });
-  type.def("regions", [](const PyMesh& self) { return regions_of(*self.read_with_erased()); });
-  type.def("fixed", [](const PyMesh& self) { return fixed_of(*self.read_with_erased()); });
-  type.def("edges", [](const PyMesh& self) {
-    const auto mesh = self.read_with_erased();
-    return edges_of(*mesh, [](HalfedgeId) { return true; });
-  });
-  type.def("boundary_edges", [](const PyMesh& self) {
-    const auto mesh = self.read_with_erased();
-    return edges_of(*mesh, [&](HalfedgeId h) { return mesh->is_boundary(h); });
-  });
-  type.def("constrained_edges", [](const PyMesh& self) {
-    const auto mesh = self.read_with_erased();
-    return edges_of(*mesh, [&](HalfedgeId h) { return mesh->is_constrained(h); });
-  });
 }
 
 void bind_changes(py::class_<PyMesh>& type) {
@@ -252,25 +246,8 @@ void bind_changes(py::class_<PyMesh>& type) {
   type.def("set_weights", [](PyMesh& self, const Doubles& weights) { set_vertices(self, weights, Assigned::weights); });
   type.def("set_weighted_vectors",
            [](PyMesh& self, const Doubles& points) { set_vertices(self, points, Assigned::weighted_vectors); });
-  type.def("set_fixed", set_fixed);
-  type.def("set_constrained", set_constrained);
   type.def("compact", [](PyMesh& self) { return to_python(self.compact()); });
   type.def("replace", [](PyMesh& self, const PyMesh& other) { self.assign(other); });
-}
-
-void bind_searches(py::class_<PyMesh>& type) {
-  type.def("find_halfedge", [](const PyMesh& self, std::int64_t a, std::int64_t b) {
-    const auto mesh = self.read_with_erased();
-    return to_python(mesh->find_halfedge(vertex_id(*mesh, a), vertex_id(*mesh, b)));
-  });
-  type.def("star", [](const PyMesh& self, std::int64_t v) {
-    const auto mesh = self.read_with_erased();
-    std::vector<HalfedgeId> star;
-    if (const VertexId id = vertex_id(*mesh, v); !mesh->is_isolated(id)) {
-      for (const HalfedgeId h : mesh->star(id)) star.push_back(h);
-    }
-    return to_python(star);
-  });
 }
 
 void bind_state(py::class_<PyMesh>& type) {
@@ -318,15 +295,54 @@ std::unique_ptr<PyMesh> map_mesh_back(const PyMesh& changed, const PyMesh& origi
   return result;
 }
 
+template <class AnyMesh>
+void define_triangles(py::class_<AnyMesh>& type) {
+  type.def("n_vertices", [](const AnyMesh& self) { return connectivity_of(self)->n_vertices(); });
+  type.def("n_triangles", [](const AnyMesh& self) { return connectivity_of(self)->n_triangles(); });
+  type.def("n_edges", [](const AnyMesh& self) { return connectivity_of(self)->n_edges(); });
+  type.def("weights", [](const AnyMesh& self) { return weights_of(connectivity_of(self)); });
+  type.def("triangles", [](const AnyMesh& self) { return triangles_of(connectivity_of(self)); });
+  type.def("twins", [](const AnyMesh& self) { return twins_of(connectivity_of(self)); });
+  type.def("regions", [](const AnyMesh& self) { return regions_of(*connectivity_of(self)); });
+  type.def("fixed", [](const AnyMesh& self) { return fixed_of(*connectivity_of(self)); });
+  type.def("edges", [](const AnyMesh& self) {
+    const auto mesh = connectivity_of(self);
+    return edges_of(*mesh, [](HalfedgeId) { return true; });
+  });
+  type.def("boundary_edges", [](const AnyMesh& self) {
+    const auto mesh = connectivity_of(self);
+    return edges_of(*mesh, [&](HalfedgeId h) { return mesh->is_boundary(h); });
+  });
+  type.def("constrained_edges", [](const AnyMesh& self) {
+    const auto mesh = connectivity_of(self);
+    return edges_of(*mesh, [&](HalfedgeId h) { return mesh->is_constrained(h); });
+  });
+  type.def("set_fixed", set_fixed<AnyMesh>);
+  type.def("set_constrained", set_constrained<AnyMesh>);
+  type.def("find_halfedge", [](const AnyMesh& self, std::int64_t a, std::int64_t b) {
+    const auto mesh = connectivity_of(self);
+    return to_python(mesh->find_halfedge(vertex_id(*mesh, a), vertex_id(*mesh, b)));
+  });
+  type.def("star", [](const AnyMesh& self, std::int64_t v) {
+    const auto mesh = connectivity_of(self);
+    std::vector<HalfedgeId> star;
+    if (const VertexId id = vertex_id(*mesh, v); !mesh->is_isolated(id)) {
+      for (const HalfedgeId h : mesh->star(id)) star.push_back(h);
+    }
+    return to_python(star);
+  });
+}
+template void define_triangles(py::class_<PyMesh>&);
+template void define_triangles(py::class_<PySurface>&);
+
 void bind_mesh(py::module_& m) {
   m.def("mapped", map_mesh);
   m.def("mapped_back", map_mesh_back);
   m.def("mesh_from_arrays", mesh_from_arrays);
   py::class_<PyMesh> type(m, "Mesh");
-  bind_sizes_and_space(type);
-  bind_arrays(type);
+  define_triangles(type);
+  bind_space(type);
   bind_changes(type);
-  bind_searches(type);
   bind_state(type);
 }
 

@@ -335,6 +335,7 @@ PYBIND11_MODULE(_temper, m) {
   bind_mesh(m);
   bind_files(m);
   bind_tets(m);
+  bind_surfaces(m);
   bind_generate(m);
   bind_geometry(m);
   bind_change(m);

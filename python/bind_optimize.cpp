@@ -230,11 +230,13 @@ void bind_optimize(py::module_& m) {
     or_raise(check_kept(options, parts));
   });
   m.def("check_cells", [](const py::dict& given, const std::string& target, const py::sequence& keep,
-                          const py::sequence& options, bool tetrahedra) {
+                          const py::sequence& options, const py::handle& mesh) {
     const std::vector<std::string> kept = strings_from(keep), set = strings_from(options);
     const std::vector<std::string_view> parts(kept.begin(), kept.end()), names(set.begin(), set.end());
-    or_raise(check_cells(options_from(given), {target, parts, names},
-                         tetrahedra ? CellKinds::tetrahedra : CellKinds::triangles));
+    const CellKinds cells = py::isinstance<PyTetMesh>(mesh)   ? CellKinds::tetrahedra
+                            : py::isinstance<PySurface>(mesh) ? CellKinds::surfaces
+                                                              : CellKinds::triangles;
+    or_raise(check_cells(options_from(given), {target, parts, names}, cells));
   });
   m.def("presets", [] {
     const auto rows = [](std::span<const Preset> presets) {

@@ -5,10 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "bind.hpp"
-#include "data_arrays.hpp"
 #include "optimize_options.hpp"
-#include "reports.hpp"
+#include "space_mesh.hpp"
 #include "temper/solvers.hpp"
 #include "temper/tets/optimize.hpp"
 #include "temper/tets/quality.hpp"
@@ -42,11 +40,7 @@ py::tuple tets_from_arrays(const py::dict& d, bool strict, const py::object& thr
   file.triangles.data = from_python_dict(d["face_data"].cast<py::dict>(), file.triangles.size(), "face data");
   const auto executor = make_threads(threads_from(threads));
   py::tuple made = load_tetrahedra(std::move(file), executor.get());
-  const auto& vertex = made[0].cast<const PyTetMesh&>().vertex_of_point;
-  for (std::size_t p = 0; strict && p < vertex.size(); ++p) {
-    if (vertex[p] >= 0) continue;
-    fail(ErrorCode::unused_point, "point " + std::to_string(p) + " belongs to no tetrahedron. Next: remove it");
-  }
+  if (strict) refuse_unused(made[0].cast<const PyTetMesh&>().vertex_of_point, "tetrahedron");
   return made;
 }
 
@@ -87,13 +81,6 @@ py::array tet_regions(const PyTetMesh& self) {
   return array_of<std::int32_t>(regions);
 }
 
-std::vector<std::int32_t> numbers_of(const io::VertexOfPoint& vertex) {
-  std::vector<std::int32_t> vertices;
-  vertices.reserve(vertex.size());
-  for (std::size_t p = 0; p < vertex.size(); ++p) vertices.push_back(vertex[p]);
-  return vertices;
-}
-
 /// Everything in the file but points and tetrahedra, in its numbers, and the vertex of each point.
 py::dict file_of_tets(const PyTetMesh& self) {
   const io::MeshFile& file = *self.file;
@@ -115,19 +102,10 @@ io::DataReport replace(PyTetMesh& self, tets::TetMesh mesh, const tets::Origins&
   const io::UpdateOptions options = self.data_rules.options(executor);
   io::DataReport data = aside([&] { return io::update(file, *self.loaded, mesh, origins, options); });
   io::set_corner_weights(file, corner_weights);
-  std::vector<std::int32_t> now(self.mesh().n_vertices(), -1);
-  for (const VertexId v : mesh.vertices()) {
-    const VertexId former = origins.vertices.empty() ? v : origins.vertices[v];
-    if (former.valid()) now[former.index] = static_cast<std::int32_t>(v.index);
-  }
-  for (std::int32_t& v : self.vertex_of_point) v = v < 0 ? -1 : now[static_cast<std::size_t>(v)];
   // New vertices of a part that a tag lists are marked in the file alone.
   if (file.marked_points.size() != mesh.tagged_points().size()) mesh = or_raise(io::make_tet_mesh(file)).mesh;
   io::VertexOfPoint all(mesh.n_vertices());
-  self.data_rules = without_absent(std::move(self.data_rules), file);
-  self.file = std::make_shared<const io::MeshFile>(std::move(file));
-  self.loaded = std::make_shared<const io::LoadedTetMesh>(io::LoadedTetMesh{std::move(mesh), std::move(all), {}});
-  ++self.version;
+  take_state(self, std::move(file), io::LoadedTetMesh{std::move(mesh), std::move(all), {}}, origins.vertices);
   return data;
 }
 
@@ -148,51 +126,6 @@ void set_tet_corner_weights(PyTetMesh& self, const Doubles& weights) {
   replace(self, self.mesh(), {}, nullptr, {values.begin(), values.end()});
 }
 
-void set_tet_weights(PyTetMesh& self, const Doubles& weights) {
-  const Run run(self.running);
-  const auto values = as_span<double>(weights);
-  if (values.size() != self.mesh().n_vertices()) {
-    fail(ErrorCode::size_mismatch,
-         "weights: expected " + std::to_string(self.mesh().n_vertices()) + ", found " + std::to_string(values.size()));
-  }
-  tets::TetMesh mesh = self.mesh();
-  for (const VertexId v : mesh.vertices()) {
-    if (!std::isfinite(values[v.index])) {
-      fail(ErrorCode::not_finite, "weights: expected finite numbers, found " + std::to_string(values[v.index]) +
-                                      " for vertex " + std::to_string(v.index));
-    }
-    if (!is_exact_weight(values[v.index])) {
-      fail(ErrorCode::out_of_scale,
-           "weights: the weight of vertex " + std::to_string(v.index) + " is out of the range of exact arithmetic");
-    }
-    mesh.set_weight(v, values[v.index]);
-  }
-  replace(self, std::move(mesh), {}, nullptr);
-}
-
-/// Sets an array of point data or cell data, or with None removes it.
-void set_tet_data(PyTetMesh& self, bool of_points, const std::string& name, const py::object& values) {
-  const Run run(self.running);
-  replace(self, self.mesh(), {}, nullptr);  // without points of no tetrahedron
-  io::MeshFile file = *self.file;
-  std::vector<io::DataArray>& arrays = of_points ? file.point_data : file.tetrahedra.data;
-  if (values.is_none()) {
-    erase_array(arrays, name);
-  } else {
-    io::DataArray array =
-        from_python_array(name, values.cast<py::array>(), of_points ? file.points.size() : file.tetrahedra.size(),
-                          of_points ? "point data" : "cell data");
-    const auto same = std::ranges::find(arrays, name, &io::DataArray::name);
-    (same == arrays.end() ? arrays.emplace_back() : *same) = std::move(array);
-  }
-  MeshDataRules rules = without_absent(self.data_rules, file);
-  check_data_rules(rules, file);
-  self.data_rules = std::move(rules);
-  self.file = std::make_shared<const io::MeshFile>(std::move(file));
-}
-
-/// The mesh gets its new state, whatever ended the run. Exceptions of the observer are raised after that. Returns the
-/// report, the report on the data or None, and what is lost.
 py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const py::object& threads, const py::object& observer,
                         const py::object& tensor) {
   OptimizeOptions options = options_from(given);
@@ -209,18 +142,9 @@ py::tuple optimize_tets(PyTetMesh& self, const py::dict& given, const py::object
   hooks.solvers = tets::solvers(options.scheme);
   const Run run(self.running);
   Expected<tets::OptimizeReport> report = aside([&] { return optimize(mesh, options, hooks); });
-  const bool has_data = !self.file->point_data.empty() || !self.file->tetrahedra.data.empty();
-  const std::size_t known = self.file->warnings.size();
-  py::object data = py::none();
-  std::vector<std::string> lost;
-  if (report) {
-    const io::DataReport changed =
-        replace(self, std::move(mesh), report->origins, executor.get(), report->corner_weights);
-    if (has_data) data = to_python(ReportView{&table_for_tetrahedra(&changed), view_of(changed).report});
-    lost.assign(self.file->warnings.begin() + static_cast<std::ptrdiff_t>(known), self.file->warnings.end());
-  }
-  visitor.raise();
-  return py::make_tuple(report_to_python(or_raise(std::move(report))), data, to_python(lost));
+  return end_run(self, std::move(report), visitor, [&](const tets::OptimizeReport& r) {
+    return replace(self, std::move(mesh), r.origins, executor.get(), r.corner_weights);
+  });
 }
 
 // --- the report and files -----------------------------------------------------------------------------
@@ -267,20 +191,15 @@ py::tuple load_tetrahedra(io::MeshFile file, Executor* executor) {
   auto made = aside([&] { return io::make_tet_mesh(file, executor); });
   io::LoadedTetMesh loaded = or_raise(std::move(made));
   reverse_as_mesh(file, loaded);
-  std::vector<std::string> warnings = std::exchange(file.warnings, {});
-  warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
-  std::vector<std::int32_t> vertices = numbers_of(loaded.vertex_of_point);
-  return py::make_tuple(PyTetMesh{std::make_shared<const io::MeshFile>(std::move(file)),
-                                  std::make_shared<const io::LoadedTetMesh>(std::move(loaded)), std::move(vertices)},
-                        to_python(warnings));
+  return loaded_to_python(std::move(file), std::move(loaded));
 }
 
 void bind_tets(py::module_& m) {
   m.def("tet_mesh_from_arrays", tets_from_arrays);
   m.def("write_tets", write_tets);
-  m.def("tet_set_data", set_tet_data);
+  m.def("tet_set_data", set_space_data<io::LoadedTetMesh>);
   m.def("tet_quality", tet_quality);
-  m.def("tet_optimize", optimize_tets);
+  m.def("optimize_in_space", optimize_tets);
   m.def("tetrahedron_quality", tetrahedron_quality_of);
   py::class_<PyTetMesh> type(m, "TetMesh");
   type.def("n_vertices", [](const PyTetMesh& self) { return self.mesh().n_vertices(); });
@@ -289,21 +208,12 @@ void bind_tets(py::module_& m) {
   type.def("points", tet_points);
   type.def("weights", tet_weights);
   type.def("tetrahedra", tetrahedra_of);
-  type.def("set_weights", set_tet_weights);
   type.def("set_corner_weights", set_tet_corner_weights);
   type.def("neighbors", neighbors_of);
   type.def("regions", tet_regions);
   type.def("file", file_of_tets);
-  define_data_rules(type);
   type.def("vertices_of_points", [](const PyTetMesh& self) { return array_of<std::int32_t>(self.vertex_of_point); });
-  type.def("version", [](const PyTetMesh& self) { return self.version; });
-  type.def("copy", [](const PyTetMesh& self) {
-    PyTetMesh copy = self;
-    copy.running = false;
-    return copy;
-  });
-  type.def("validate", [](const PyTetMesh& self) { return to_python(self.mesh().validate()); });
-  type.def("equal", [](const PyTetMesh& self, const PyTetMesh& other) { return self.mesh() == other.mesh(); });
+  define_space_mesh(type);
 }
 
 }  // namespace temper::python

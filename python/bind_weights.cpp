@@ -216,22 +216,72 @@ py::dict weights_to_dict(const AnyMesh& mesh, const py::object& tensor, py::ssiz
   return Record{weight_report_to_dict(report)}("corner_weights", corner_weights_to_python(weights, corners)).dict;
 }
 
-void bind_feasibility(py::module_& m) {
-  m.def("constraints_table", [] { return conditions_rows(constraints_table()); });
-  m.def("best_connectivity", search_connectivity);
-  m.def("find_weights", [](const PyMesh& self, const std::string& goal, double margin, bool from_input,
+/// Null of a target whose criterion is well_centered.
+template <class AnyMesh>
+py::object explain_duals_of(const AnyMesh& mesh, const std::string& target, std::size_t most) {
+  const std::string_view named = or_raise(target_named(target));
+  or_raise(check_cells({}, {named}, cells_of(mesh)));
+  const Criterion criterion = criterion_of_target(named);
+  if (criterion == Criterion::well_centered) return py::none();
+  return report_to_python(aside([&] { return explain_duals(mesh, criterion, most); }));
+}
+
+/// The functions of meshes of triangles, in the plane, on a sphere or in space.
+template <class AnyMesh>
+void bind_weights_of_triangles(py::module_& m) {
+  m.def("find_weights", [](const AnyMesh& self, const std::string& goal, double margin, bool from_input,
                            std::size_t whole, int rings, const std::string& constraints, double offset_factor,
                            double boundary_offset_factor, const py::object& edges, const py::object& tensor) {
     const auto mesh = self.read();
     WeightOptions options =
         weight_options(goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor);
-    options.edges = prescribed(*mesh, edges);
+    options.edges = prescribed(*connectivity_of(self), edges);
     const auto found = [&](const auto& wanted) {
       return or_raise(
           aside([&] { return find_weights(wanted, *clp_solver(), options, interior_point_solver().get()); }));
     };
-    return weights_to_dict<Tensor>(*mesh, tensor, 3, found);
+    if constexpr (std::is_same_v<AnyMesh, PySurface>) {
+      return weight_report_to_dict(found(*mesh));
+    } else {
+      return weights_to_dict<Tensor>(*mesh, tensor, 3, found);
+    }
   });
+  m.def("weight_margin", [](const AnyMesh& self, const std::string& constraints, const py::object& edges) {
+    const auto mesh = self.read();
+    return weight_margin(*mesh, from_name<Constraints>("constraints", constraints),
+                         prescribed(*connectivity_of(self), edges));
+  });
+  m.def("weight_change", [](const AnyMesh& self, const Doubles& before, const Doubles& after) {
+    const auto mesh = self.read();
+    const auto weights = [&](const Doubles& values) {
+      const auto n = static_cast<std::size_t>(values.size());
+      if (n != mesh->n_vertices()) {
+        fail(ErrorCode::size_mismatch,
+             "weights: expected " + std::to_string(mesh->n_vertices()) + ", found " + std::to_string(n));
+      }
+      IdVector<VertexId, double> own(n, 0.0);
+      std::copy_n(values.data(), n, own.begin());
+      return own;
+    };
+    return weight_change(*mesh, weights(before), weights(after));
+  });
+  m.def("check_certificate", [](const AnyMesh& self, const py::dict& certificate, const py::object& tensor) {
+    const auto mesh = self.read();
+    const Certificate proof = certificate_from(certificate);
+    if constexpr (std::is_same_v<AnyMesh, PyMesh>) {
+      if (!tensor.is_none())
+        return std::string(name(check_certificate(in_metric(*mesh, tensors_from<Tensor>(tensor)), proof)));
+    }
+    return std::string(name(check_certificate(*mesh, proof)));
+  });
+  m.def("explain_duals", [](const AnyMesh& self, const std::string& target, std::size_t most) {
+    return explain_duals_of(*self.read(), target, most);
+  });
+}
+
+void bind_feasibility(py::module_& m) {
+  m.def("constraints_table", [] { return conditions_rows(constraints_table()); });
+  m.def("best_connectivity", search_connectivity);
   m.def("best_margin",
         [](const PyMesh& self, const py::object& triangles, const std::string& constraints, const py::object& edges) {
           const auto mesh = self.read();
@@ -248,31 +298,6 @@ void bind_feasibility(py::module_& m) {
             return all ? best_margin(*mesh, *solver, wanted, chosen) : best_margin(*mesh, ids, *solver, wanted, chosen);
           }));
         });
-  m.def("weight_margin", [](const PyMesh& self, const std::string& constraints, const py::object& edges) {
-    const auto mesh = self.read();
-    return weight_margin(*mesh, from_name<Constraints>("constraints", constraints), prescribed(*mesh, edges));
-  });
-  m.def("weight_change", [](const PyMesh& self, const Doubles& before, const Doubles& after) {
-    const auto mesh = self.read();
-    const auto weights = [&](const Doubles& values) {
-      const auto n = static_cast<std::size_t>(values.size());
-      if (n != mesh->n_vertices()) {
-        fail(ErrorCode::size_mismatch,
-             "weights: expected " + std::to_string(mesh->n_vertices()) + ", found " + std::to_string(n));
-      }
-      IdVector<VertexId, double> own(n, 0.0);
-      std::copy_n(values.data(), n, own.begin());
-      return own;
-    };
-    return weight_change(*mesh, weights(before), weights(after));
-  });
-  m.def("check_certificate", [](const PyMesh& self, const py::dict& certificate, const py::object& tensor) {
-    const auto mesh = self.read();
-    const Certificate proof = certificate_from(certificate);
-    const bool is_plain = tensor.is_none();
-    return std::string(name(is_plain ? check_certificate(*mesh, proof)
-                                     : check_certificate(in_metric(*mesh, tensors_from<Tensor>(tensor)), proof)));
-  });
   m.def("certificate_to_json", [](const py::dict& d) {
     return d.contains("lemmas") ? io::certificate_to_json(proof_from(d)) : io::certificate_to_json(certificate_from(d));
   });
@@ -286,6 +311,28 @@ void bind_feasibility(py::module_& m) {
     const auto mesh = self.read();
     require_plane(*mesh, "check_certificate() of a proof over connectivities");
     return std::string(name(check_proof(*mesh, proof_from(proof))));
+  });
+}
+
+// --- intrinsic triangulations ---------------------------------------------------------------------------------------
+
+void bind_weights_of_intrinsic_meshes(py::module_& m) {
+  m.def("find_intrinsic_weights", [](const PySurface& self, const std::string& goal, double margin, bool from_input,
+                                     std::size_t whole, int rings, const std::string& constraints, double offset_factor,
+                                     double boundary_offset_factor) {
+    surfaces::IntrinsicMesh mesh(self.mesh());
+    const WeightOptions options =
+        weight_options(goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor);
+    const surfaces::IntrinsicWeights found = or_raise(
+        aside([&] { return find_intrinsic_weights(mesh, *clp_solver(), options, interior_point_solver().get()); }));
+    const py::dict numbers = Record()("flips", found.flips.flips)("blocked", found.flips.blocked)(
+                                 "bad_before", found.bad_before)("bad_after", found.bad_after)("rounds", found.rounds)
+                                 .dict;
+    return py::make_tuple(weight_report_to_dict(found.report), numbers,
+                          PyIntrinsic{std::make_shared<const surfaces::IntrinsicMesh>(std::move(mesh))});
+  });
+  m.def("check_certificate", [](const PyIntrinsic& self, const py::dict& certificate, const py::object& /*tensor*/) {
+    return std::string(name(check_certificate(*self.mesh, certificate_from(certificate))));
   });
 }
 
@@ -357,6 +404,14 @@ py::object explain_mesh(const PyMesh& self, std::size_t cures, std::size_t whole
   return report_to_python(ExplanationReport{*mesh, why});
 }
 
+/// Cures and progress are for triangles of the plane or the sphere.
+py::object explain_surface(const PySurface& self, std::size_t /*cures*/, std::size_t whole,
+                           const py::object& /*progress*/) {
+  const auto mesh = self.read();
+  return report_to_python(
+      or_raise(aside([&] { return surfaces::explain(*mesh, *clp_solver(), mesh->n_triangles(), whole); })));
+}
+
 py::object explain_tetrahedra(const PyTetMesh& self, std::size_t whole) {
   const auto loaded = self.loaded;
   const tets::ExplainOptions options = {.whole = whole};
@@ -364,28 +419,18 @@ py::object explain_tetrahedra(const PyTetMesh& self, std::size_t whole) {
   return report_to_python(tets::ExplanationReport{loaded->mesh, why});
 }
 
-/// Null of a target whose criterion is well_centered.
-template <class AnyMesh>
-py::object explain_duals_of(const AnyMesh& mesh, const std::string& target, std::size_t most) {
-  const std::string_view named = or_raise(target_named(target));
-  constexpr bool is_tets = std::is_same_v<AnyMesh, tets::TetMesh>;
-  or_raise(check_cells({}, {named}, is_tets ? CellKinds::tetrahedra : CellKinds::triangles));
-  const Criterion criterion = criterion_of_target(named);
-  if (criterion == Criterion::well_centered) return py::none();
-  return report_to_python(aside([&] { return explain_duals(mesh, criterion, most); }));
-}
-
 }  // namespace
 
 void bind_weights(py::module_& m) {
   bind_feasibility(m);
+  bind_weights_of_triangles<PyMesh>(m);
+  bind_weights_of_triangles<PySurface>(m);
+  bind_weights_of_intrinsic_meshes(m);
   bind_weights_of_tetrahedra(m);
   bind_necessity(m);
   m.def("explain", explain_mesh);
+  m.def("explain", explain_surface);
   m.def("tet_explain", explain_tetrahedra);
-  m.def("explain_duals", [](const PyMesh& self, const std::string& target, std::size_t most) {
-    return explain_duals_of(*self.read(), target, most);
-  });
   m.def("tet_explain_duals", [](const PyTetMesh& self, const std::string& target, std::size_t most) {
     return explain_duals_of(self.loaded->mesh, target, most);
   });

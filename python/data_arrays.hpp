@@ -65,6 +65,12 @@ inline void erase_array(std::vector<io::DataArray>& arrays, const std::string& n
   if (std::erase_if(arrays, [&](const io::DataArray& a) { return a.name == name; }) == 0) throw py::key_error(name);
 }
 
+/// The data of the cells that the mesh of a file has.
+template <class File>
+auto& cell_data_of(File& file) {
+  return file.dimension() == 3 ? file.tetrahedra.data : file.triangles.data;
+}
+
 /// The rules, without those of arrays that the file does not have.
 [[nodiscard]] MeshDataRules without_absent(MeshDataRules rules, const io::MeshFile& file);
 /// Raises if a rule names no array of the file, or does not fit its array.

@@ -57,6 +57,7 @@ from ._options import LengthParameter, OptimizeOptions, options_for
 from ._outline import Outline, mesh_outline, mesh_sphere, read_outline
 from ._plot import plot, plot_history
 from ._space import Space
+from ._surfaces import SurfaceMesh
 from ._temper import __version__, build_info, instruction_set, instruction_sets, use_instruction_set
 from ._tensor import mapped, mapped_back
 from ._tets import TetMesh

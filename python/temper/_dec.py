@@ -14,6 +14,7 @@ from . import _temper
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._records import Record
 from ._reports import DecSummary, TetDecSummary
+from ._surfaces import SurfaceMesh
 from ._tensor import TensorLike, plain_tensor, values_of_regions
 from ._tets import AnyMeshLike, TetMesh, as_any_mesh
 
@@ -141,7 +142,8 @@ class DecComplex(_Complex):
     """The operators and the dual of a mesh. Vertices and triangles have the numbers of the mesh. All arrays are
     read-only views on one value, without copies.
 
-    On a sphere lengths are measured along arcs, and areas are spherical excess.
+    On a sphere lengths are measured along arcs, and areas are spherical excess. On a curved surface triangles are plane,
+    and ``orthocenters`` and ``edges.midpoint`` are in space.
 
     Signs (docs/reference/symbols.md): a dual length is negative if the edge is not regular. On the boundary it is
     negative if the orthocenter is outside. It is zero exactly if the four points are cocircular in the power sense.
@@ -179,7 +181,9 @@ class DecComplex(_Complex):
     def __reduce__(self) -> Any:
         lines = {name: self.edges.vertices[numbers] for name, numbers in self.edges.named.items()}
         coefficient = self.coefficient.copy() if len(self.coefficient) else np.empty(0)
-        return _dec_of, (Mesh._of(self._handle.mesh()), self._tensor, coefficient, lines)
+        handle = self._handle.mesh()
+        mesh = SurfaceMesh._of(handle) if isinstance(handle, _temper.SurfaceMesh) else Mesh._of(handle)
+        return _dec_of, (mesh, self._tensor, coefficient, lines)
 
     def summarize(self) -> DecSummary:
         """Summarizes counts, signs and extremes."""
@@ -187,7 +191,7 @@ class DecComplex(_Complex):
 
     def power_cells(self) -> PowerCells:
         """The power cell of each vertex, clipped to the domain. In any mesh the cells are disjoint and cover the
-        domain."""
+        domain. On a curved surface: the dual cells, a quadrilateral with a signed area in each triangle of a vertex."""
         return PowerCells(**self._handle.power_cells())
 
 
@@ -296,7 +300,7 @@ class TetDecComplex(_Complex):
         return self._handle.summarize()
 
 
-def _coefficient_of(mesh: Mesh | TetMesh, coefficient: CoefficientLike | None) -> npt.NDArray[np.float64]:
+def _coefficient_of(mesh: Mesh | TetMesh | SurfaceMesh, coefficient: CoefficientLike | None) -> npt.NDArray[np.float64]:
     """One value per triangle or tetrahedron; empty for None."""
     if coefficient is None:
         return np.empty(0)
@@ -333,7 +337,7 @@ def dec_operators(
 
     Parameters
     ----------
-    mesh : Mesh, TetMesh, or of another library
+    mesh : Mesh, TetMesh, SurfaceMesh, or of another library
     tensor : sequence of float, (m, 3) array, or dict of region to sequence, optional
         kxx, kxy, kyy of a diffusion tensor K, for −div(K ∇u): of the mesh, of each triangle, or of each region by its
         tag or name. Duals and lengths are measured in its metric. ★1 and transmissibility are multiplied by √(det K)
@@ -371,7 +375,7 @@ def dec_operators(
     return _dec_of(any_mesh, plain_tensor(any_mesh, tensor), _coefficient_of(any_mesh, coefficient), _named_lines(any_mesh))
 
 
-def _named_lines(mesh: Mesh) -> dict[str, npt.NDArray[np.int32]]:
+def _named_lines(mesh: Mesh | SurfaceMesh) -> dict[str, npt.NDArray[np.int32]]:
     """The lines of each name, (k, 2)."""
     file = mesh._file()
     named: dict[str, list[Any]] = {}
@@ -382,7 +386,7 @@ def _named_lines(mesh: Mesh) -> dict[str, npt.NDArray[np.int32]]:
 
 
 def _dec_of(
-    mesh: Mesh,
+    mesh: Mesh | SurfaceMesh,
     tensor: tuple[Any, ...] | None,
     coefficient: npt.NDArray[np.float64],
     named: dict[str, npt.NDArray[np.int32]],

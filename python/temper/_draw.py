@@ -14,7 +14,8 @@ from ._measure import quality
 from ._mesh import PICTURE_WIDTH, Mesh, as_mesh
 from ._reports import OptimizeReport
 from ._records import Record, expect, table
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
+from ._surfaces import SurfaceMesh
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, as_flat_mesh, expect_no_options_of_planes, expect_no_options_of_triangles
 
 _EXPLAINED = 500  # bad triangles: about one second, as in the program
 
@@ -60,12 +61,13 @@ def draw_svg(
 
     Parameters
     ----------
-    mesh : Mesh, TetMesh, or of another library
+    mesh : Mesh, TetMesh, SurfaceMesh, or of another library
     before : of the same kind, optional
         A mesh to draw on the left, with the same scale, view and zoom box.
     cut : "x", "y", "z", or with the coordinate, such as ("x", 0.5), optional
         Plane that cuts tetrahedra. Without a coordinate: through the middle of the mesh. None: across its shortest side.
-        For tetrahedra there are also ``primal``, ``fill``, ``zoom``, ``width`` and ``title``.
+        For tetrahedra there are also ``primal``, ``fill``, ``zoom``, ``width`` and ``title``, and for curved surfaces
+        ``view``, too.
     primal, dual : bool
         Draw the edges of the triangulation, and the edges of the power diagram between orthocenters. Dual edges of
         negative length are dashed.
@@ -81,7 +83,7 @@ def draw_svg(
         right and up.
     view : (longitude, latitude), optional
         Middle of the picture for a sphere [degrees]; its near half is drawn. None: the middle of a mesh that is a part
-        of the sphere, else 0, 0.
+        of the sphere, else 0, 0. A curved surface is seen from this direction, by default from -60, 30.
     width : float
         Width of each mesh [CSS pixels].
 
@@ -104,9 +106,17 @@ def draw_svg(
     if cut is not None:
         raise TypeError("cut is for tetrahedra alone. Next: leave it out")
     after = any_mesh._handle
+    if isinstance(any_mesh, SurfaceMesh):
+        expect_no_options_of_planes(
+            draw_svg, dual=dual, weights=weights, weight_scale=weight_scale, near_coincident=near_coincident,
+            vertex_numbers=vertex_numbers,
+        )  # fmt: skip
     if before is None:
         return Svg(_temper.draw_svg(after, options))
-    return Svg(_temper.draw_before_after_svg(as_mesh(before)._handle, after, options))
+    old = as_any_mesh(before)
+    if type(old) is not type(any_mesh):
+        raise TypeError(f"before: expected a {type(any_mesh).__name__}, found a {type(old).__name__}")
+    return Svg(_temper.draw_before_after_svg(old._handle, after, options))
 
 
 def _tets(before: AnyMeshLike | None) -> Any:
@@ -196,7 +206,7 @@ def html_report(
     >>> page.startswith("<!DOCTYPE html>")
     True
     """
-    after = as_any_mesh(mesh)
+    after = as_flat_mesh(mesh)
     if isinstance(after, Mesh):
         after._handle.require_plane("html_report()")
     old = None if before is None else as_mesh(before) if isinstance(after, Mesh) else as_any_mesh(before)
@@ -221,7 +231,7 @@ def html_report(
 # --- in notebooks: set here, above the modules of the two classes, so that none of them imports this one ------------
 
 
-def _mesh_html(mesh: Mesh) -> str:
+def _mesh_html(mesh: Mesh | SurfaceMesh) -> str:
     q = quality(mesh, worst=0, threads=1)
     rows = [
         ("vertices", f"{q.vertices}"),
@@ -233,7 +243,7 @@ def _mesh_html(mesh: Mesh) -> str:
         ("least h/ℓ", f"{q.min_h_over_l:.4g}"),
         ("angles", f"{q.min_angle_deg:.4g}° to {q.max_angle_deg:.4g}°"),
     ]
-    return table("temper.Mesh", rows, mesh._repr_svg_() or "")
+    return table(f"temper.{type(mesh).__name__}", rows, mesh._repr_svg_() or "")
 
 
 def _report_html(report: OptimizeReport) -> str:
@@ -244,5 +254,5 @@ def _report_html(report: OptimizeReport) -> str:
     return table("OptimizeReport", report._rows(), picture)
 
 
-Mesh._repr_html_ = _mesh_html  # type: ignore[attr-defined]
+Mesh._repr_html_ = SurfaceMesh._repr_html_ = _mesh_html  # type: ignore[attr-defined]
 OptimizeReport._repr_html_ = _report_html  # type: ignore[method-assign]

@@ -7,14 +7,19 @@ from typing import Any, Callable, overload
 from . import _temper
 from ._mesh import MeshLike
 from ._options import TargetName
-from ._reports import DualExplanation, Explanation, TetExplanation
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
+from ._reports import DualExplanation, Explanation, SurfaceExplanation, TetExplanation
+from ._surfaces import SurfaceMesh
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_planes, expect_no_options_of_triangles
 
 
 @overload
 def explain(
     mesh: TetMesh, *, cures: int = ..., whole: int = ..., progress: Callable[[int, int], Any] | None = ...
 ) -> TetExplanation: ...
+@overload
+def explain(
+    mesh: SurfaceMesh, *, cures: int = ..., whole: int = ..., progress: Callable[[int, int], Any] | None = ...
+) -> SurfaceExplanation: ...
 @overload
 def explain(
     mesh: MeshLike, *, cures: int = ..., whole: int = ..., progress: Callable[[int, int], Any] | None = ...
@@ -25,25 +30,26 @@ def explain(
     cures: int = 20,
     whole: int = 1000,
     progress: Callable[[int, int], Any] | None = None,
-) -> Explanation | TetExplanation:
+) -> Explanation | TetExplanation | SurfaceExplanation:
     """Explains each triangle that is not well-centered by exactly one reason (docs/explanation/proofs.md). For each
-    tetrahedron that is not well-centered, it gives the heights over its faces, and what may help.
+    tetrahedron that is not well-centered, it gives the heights over its faces, and what may help. For a curved surface it
+    lists the bad triangles, and says what weights alone can do.
 
     Parameters
     ----------
-    mesh : Mesh, TetMesh, or of another library
+    mesh : Mesh, TetMesh, SurfaceMesh, or of another library
     cures : int
-        Largest number of reasons, the worst, for which cures are searched. For triangles alone.
+        Largest number of reasons, the worst, for which cures are searched. For triangles of the plane or the sphere alone.
     whole : int
         Size limit of the search for weights of the whole mesh: at most this many triangles or tetrahedra, or this many
         bad ones.
     progress : callable, optional
         Function that is called now and then with the number of explained bad triangles, and the number of all. If it
-        returns False, the call stops with TemperError. For triangles alone.
+        returns False, the call stops with TemperError. For triangles of the plane or the sphere alone.
 
     Returns
     -------
-    Explanation, or TetExplanation for tetrahedra
+    Explanation, or TetExplanation for tetrahedra, or SurfaceExplanation for a curved surface
 
     Notes
     -----
@@ -59,6 +65,8 @@ def explain(
     if isinstance(any_mesh, TetMesh):
         expect_no_options_of_triangles(explain, cures=cures, progress=progress)
         return _temper.tet_explain(any_mesh._handle, whole)
+    if isinstance(any_mesh, SurfaceMesh):
+        expect_no_options_of_planes(explain, cures=cures, progress=progress)
     return _temper.explain(any_mesh._handle, cures, whole, progress)
 
 
@@ -67,7 +75,7 @@ def explain_duals(mesh: AnyMeshLike, target: TargetName, *, reasons: int = 20) -
 
     Parameters
     ----------
-    mesh : Mesh, TetMesh, or of another library
+    mesh : Mesh, TetMesh, SurfaceMesh, or of another library
     target : str
         As in ``optimize``: "vertex" for coefficients, "cell" for distances.
     reasons : int

@@ -11,7 +11,8 @@ from . import _temper
 from ._errors import TemperWarning
 from ._mesh import Mesh, _warn
 from ._records import Record
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
+from ._surfaces import SurfaceMesh
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_planes, expect_no_options_of_triangles
 
 
 @dataclasses.dataclass(frozen=True)
@@ -30,6 +31,7 @@ class Format(Record):
     """The format can hold any mesh of the plane; else only meshes that were read in degrees."""
     holds_spheres: bool
     holds_tetrahedra: bool
+    holds_surfaces: bool
 
 
 def formats() -> list[Format]:
@@ -46,8 +48,9 @@ def read(
     positive: Literal["up", "down"] | None = None,
     merge: float | None = None,
     threads: int | None = None,
-) -> Mesh | TetMesh:
-    """Reads a mesh file. Its content decides the format, never its name. A file with tetrahedra gives a ``TetMesh``.
+) -> Mesh | TetMesh | SurfaceMesh:
+    """Reads a mesh file. Its content decides the format, never its name. A file with tetrahedra gives a ``TetMesh``, and
+    a curved surface a ``SurfaceMesh``.
 
     Parameters
     ----------
@@ -77,7 +80,7 @@ def read(
 
     Returns
     -------
-    Mesh or TetMesh
+    Mesh, TetMesh or SurfaceMesh
         The mesh, with all other contents of the file (data, tags, names) for ``write``. ``Mesh.warnings`` lists repairs
         and losses.
 
@@ -96,6 +99,8 @@ def read(
     handle, messages = _temper.read(os.fspath(path), tags, projection or "", flat, positive or "", merge, threads)
     if isinstance(handle, _temper.TetMesh):
         return TetMesh._of(handle, messages, 2)
+    if isinstance(handle, _temper.SurfaceMesh):
+        return _warn(SurfaceMesh._of(handle), messages, 2)
     return _warn(Mesh._of(handle), messages, 2)
 
 
@@ -151,6 +156,8 @@ def write(
         expect_no_options_of_triangles(write, cells=cells)
         messages: list[str] = _temper.write_tets(*how)
     else:
+        if isinstance(any_mesh, SurfaceMesh):
+            expect_no_options_of_planes(write, cells=cells)
         messages = _temper.write(*how, cells or "")
     for message in messages:
         warnings.warn(message, TemperWarning, stacklevel=2)

@@ -9,11 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._mesh import MeshLike, as_mesh
+from ._mesh import MeshLike
 from ._options import LengthParameter, LengthParameterLike, _length_parameter
 from ._records import Record
-from ._reports import Quality, TetQuality
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
+from ._reports import Quality, SurfaceQuality, TetQuality
+from ._surfaces import SurfaceMesh
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, as_triangles, expect_no_options_of_planes, expect_no_options_of_triangles
 
 
 _GAMMA, _H0 = LengthParameter(1.0, "absolute"), LengthParameter(0.0, "absolute")
@@ -25,6 +26,10 @@ def quality(
 ) -> TetQuality: ...
 @overload
 def quality(
+    mesh: SurfaceMesh, *, gamma: LengthParameterLike = ..., h0: LengthParameterLike = ..., worst: int = ..., threads: int | None = ...
+) -> SurfaceQuality: ...
+@overload
+def quality(
     mesh: MeshLike, *, gamma: LengthParameterLike = ..., h0: LengthParameterLike = ..., worst: int = ..., threads: int | None = ...
 ) -> Quality: ...
 def quality(
@@ -34,15 +39,15 @@ def quality(
     h0: LengthParameterLike = _H0,
     worst: int = 5,
     threads: int | None = None,
-) -> Quality | TetQuality:
+) -> Quality | TetQuality | SurfaceQuality:
     """Measures a mesh: is it valid, regular, well-centered, and with what margins?
 
     Parameters
     ----------
-    mesh : Mesh, TetMesh, or of another library
+    mesh : Mesh, TetMesh, SurfaceMesh, or of another library
     gamma, h0 : LengthParameter or float
         Parameters γ of E_BP and −h° of E_BHs in the report; plain numbers are relative to each edge. They are for
-        triangles alone.
+        triangles of the plane or the sphere alone.
     worst : int
         Number of the worst triangles or tetrahedra to list.
     threads : int, optional
@@ -50,7 +55,7 @@ def quality(
 
     Returns
     -------
-    Quality, or TetQuality for tetrahedra
+    Quality, or TetQuality for tetrahedra, or SurfaceQuality for a curved surface
 
     Examples
     --------
@@ -62,6 +67,8 @@ def quality(
     if isinstance(any_mesh, TetMesh):
         expect_no_options_of_triangles(quality, gamma=gamma, h0=h0)
         return _temper.tet_quality(any_mesh._handle, worst, threads)
+    if isinstance(any_mesh, SurfaceMesh):
+        expect_no_options_of_planes(quality, gamma=gamma, h0=h0)
     return _temper.quality(any_mesh._handle, _length_parameter("gamma", gamma), _length_parameter("h0", h0), worst, threads)
 
 
@@ -133,7 +140,7 @@ def tetrahedron_quality(mesh: AnyMeshLike) -> TetrahedronQuality:
     return TetrahedronQuality(**_temper.tetrahedron_quality(any_mesh._handle))
 
 
-def triangle_quality(mesh: MeshLike) -> TriangleQuality:
+def triangle_quality(mesh: AnyMeshLike) -> TriangleQuality:
     """Measures each triangle: arrays whose least values are in ``quality``.
 
     Examples
@@ -144,4 +151,4 @@ def triangle_quality(mesh: MeshLike) -> TriangleQuality:
     >>> bool(each.min_angle_deg.min() == temper.quality(mesh).min_angle_deg)
     True
     """
-    return TriangleQuality(**_temper.triangle_quality(as_mesh(mesh)._handle))
+    return TriangleQuality(**_temper.triangle_quality(as_triangles(mesh)._handle))

@@ -13,7 +13,7 @@ from ._dec import CoefficientLike, _coefficient_of, _named_lines
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
 from ._records import Record, expect, merged
 from ._reports import DiffusionErrors, ErrorCounts, ErrorNorms, FieldFrame, TetErrorCounts
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh
+from ._tets import AnyMeshLike, TetMesh, as_flat_mesh
 
 FieldGroup = Literal["chosen", "held-back", "exact"]
 
@@ -117,7 +117,7 @@ def error_fields(*, sphere: bool = False, periodic: bool = False, tetrahedra: bo
 def field_frame(mesh: AnyMeshLike) -> FieldFrame:
     """The frame of the bounding box of the vertices: its longest side goes from −1 to 1. On a sphere its radius
     counts."""
-    any_mesh = as_any_mesh(mesh)
+    any_mesh = as_flat_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
         return _temper.tet_field_frame(any_mesh._handle)
     return _temper.field_frame(any_mesh._handle)
@@ -306,7 +306,7 @@ def measure_errors(
     if isinstance(fields, str):
         fields = [fields]
     plain_frame = expect("frame", frame, FieldFrame)._plain() if frame is not None else None
-    any_mesh = as_any_mesh(mesh)
+    any_mesh = as_flat_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
         if refine or local:
             raise TypeError("refine and local are for triangles alone. Next: leave them out")

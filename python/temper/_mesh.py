@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import warnings
-from typing import Any, Iterator, Literal, MutableMapping, Sequence, Union
+from typing import Any, Iterator, Literal, MutableMapping, Sequence, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -259,7 +259,118 @@ class Tagged:
     __hash__ = None  # type: ignore[assignment]
 
 
-class Mesh(Tagged):
+class Triangles(Tagged):
+    """Parts that meshes of triangles share: in the plane, on a sphere or in space."""
+
+    __slots__ = ()
+
+    @property
+    def n_triangles(self) -> int:
+        """Number of triangles."""
+        return self._handle.n_triangles()
+
+    @property
+    def n_halfedges(self) -> int:
+        """Three times the number of triangles."""
+        return 3 * self._handle.n_triangles()
+
+    @property
+    def n_edges(self) -> int:
+        """Number of edges. O(n)."""
+        return self._handle.n_edges()
+
+    @property
+    def triangles(self) -> npt.NDArray[np.int32]:
+        """Corners of each triangle, counter-clockwise, (m, 3) int32. A read-only view."""
+        return self._handle.triangles()
+
+    @property
+    def twins(self) -> npt.NDArray[np.int32]:
+        """The halfedge on the other side of each halfedge, (3 m,) int32; −1 on the boundary. A read-only view."""
+        return self._handle.twins()
+
+    @property
+    def neighbors(self) -> npt.NDArray[np.int32]:
+        """The triangle across the edge from corner k to corner k + 1, (m, 3) int32; −1 on the boundary. A copy."""
+        twins = self._handle.twins().reshape(-1, 3)
+        return np.where(twins < 0, np.int32(-1), twins // 3)
+
+    @property
+    def regions(self) -> npt.NDArray[np.int32]:
+        """Region number of each triangle, (m,) int32. A copy."""
+        return self._handle.regions()
+
+    @property
+    def edges(self) -> npt.NDArray[np.int32]:
+        """Each edge once, as two vertices, (e, 2) int32, in the order of the halfedges (``dec_operators`` has another
+        order). A copy."""
+        return self._handle.edges()
+
+    @property
+    def boundary_edges(self) -> npt.NDArray[np.int32]:
+        """Edges of one triangle, (b, 2) int32, with the domain on their left. A copy."""
+        return self._handle.boundary_edges()
+
+    @property
+    def constrained_edges(self) -> npt.NDArray[np.int32]:
+        """Edges that never flip, (k, 2) int32: your lines, and interfaces of regions. A copy."""
+        return self._handle.constrained_edges()
+
+    @property
+    def fixed(self) -> npt.NDArray[np.int32]:
+        """Vertices that must never move, (k,) int32, ascending. A copy. Assigning replaces these marks."""
+        return self._handle.fixed()
+
+    @fixed.setter
+    def fixed(self, vertices: npt.ArrayLike) -> None:
+        self._handle.set_fixed(_ints(vertices, 0, "fixed").astype(np.int64))
+
+    # --- tags and names -------------------------------------------------------------------------------------
+
+    def _file(self, *, with_data: bool = False) -> dict[str, Any]:
+        return _temper.file_as_dict(self._handle, with_data)
+
+    def _set_data(self, of_points: bool, name: str, array: npt.NDArray[Any] | None) -> None:
+        _temper.set_data(self._handle, of_points, name, array)
+
+    @property
+    def tags(self) -> npt.NDArray[np.int32]:
+        """Tag of each of ``lines``, (k,) int32. A copy. (Tags of triangles are ``regions``, tags of points are
+        ``point_tags``.)"""
+        return self._file()["line_tags"]
+
+    def set_constrained(self, edges: npt.ArrayLike, constrained: bool = True) -> None:
+        """Marks edges, (k, 2) pairs of vertices, so that they never flip, or removes the mark. TemperError if the mesh
+        has no such edge."""
+        self._handle.set_constrained(_ints(edges, 2, "edges").astype(np.int64), constrained)
+
+    def find_halfedge(self, a: int, b: int) -> int:
+        """The halfedge from vertex a to vertex b, or −1. O(degree)."""
+        return self._handle.find_halfedge(a, b)
+
+    def star(self, vertex: int) -> npt.NDArray[np.int32]:
+        """The halfedges that leave a vertex, counter-clockwise."""
+        return self._handle.star(vertex)
+
+    def _form(self) -> Cells:
+        return meshio_form(self._handle)
+
+    def _vertices_of_points(self) -> npt.NDArray[np.int32]:
+        """Vertex of each original point, −1 if it is gone."""
+        return np.asarray(_temper.vertices_of_points(self._handle))
+
+    def _shown(self, where: str = "") -> str:
+        vertices = "1 vertex" if self.n_vertices == 1 else f"{self.n_vertices} vertices"
+        triangles = "1 triangle" if self.n_triangles == 1 else f"{self.n_triangles} triangles"
+        return f"<temper.{type(self).__name__}: {vertices}, {triangles}{where}>"
+
+    def _repr_svg_(self) -> str | None:
+        if not 0 < self.n_triangles <= PICTURE:
+            return None
+        return _temper.draw_svg(self._handle, {"dual": False, "near_coincident": False, "width": PICTURE_WIDTH})
+
+
+class Mesh(Triangles):
     """A triangle mesh whose vertices carry weights.
 
     Parameters
@@ -357,21 +468,6 @@ class Mesh(Tagged):
     # --- sizes ---------------------------------------------------------------------------------------------
 
     @property
-    def n_triangles(self) -> int:
-        """Number of triangles."""
-        return self._handle.n_triangles()
-
-    @property
-    def n_halfedges(self) -> int:
-        """Three times the number of triangles."""
-        return 3 * self._handle.n_triangles()
-
-    @property
-    def n_edges(self) -> int:
-        """Number of edges. O(n)."""
-        return self._handle.n_edges()
-
-    @property
     def memory_bytes(self) -> int:
         """Size of the mesh's arrays in bytes."""
         return self._handle.memory_bytes()
@@ -418,66 +514,6 @@ class Mesh(Tagged):
     def weighted_vectors(self, points: npt.ArrayLike) -> None:
         self._handle.set_weighted_vectors(_doubles(points, 3, "weighted_vectors"))
 
-    @property
-    def triangles(self) -> npt.NDArray[np.int32]:
-        """Corners of each triangle, counter-clockwise, (m, 3) int32. A read-only view."""
-        return self._handle.triangles()
-
-    @property
-    def twins(self) -> npt.NDArray[np.int32]:
-        """The halfedge on the other side of each halfedge, (3 m,) int32; −1 on the boundary. A read-only view."""
-        return self._handle.twins()
-
-    @property
-    def neighbors(self) -> npt.NDArray[np.int32]:
-        """The triangle across the edge from corner k to corner k + 1, (m, 3) int32; −1 on the boundary. A copy."""
-        twins = self._handle.twins().reshape(-1, 3)
-        return np.where(twins < 0, np.int32(-1), twins // 3)
-
-    @property
-    def regions(self) -> npt.NDArray[np.int32]:
-        """Region number of each triangle, (m,) int32. A copy."""
-        return self._handle.regions()
-
-    @property
-    def edges(self) -> npt.NDArray[np.int32]:
-        """Each edge once, as two vertices, (e, 2) int32, in the order of the halfedges (``dec_operators`` has another
-        order). A copy."""
-        return self._handle.edges()
-
-    @property
-    def boundary_edges(self) -> npt.NDArray[np.int32]:
-        """Edges of one triangle, (b, 2) int32, with the domain on their left. A copy."""
-        return self._handle.boundary_edges()
-
-    @property
-    def constrained_edges(self) -> npt.NDArray[np.int32]:
-        """Edges that never flip, (k, 2) int32: your lines, and interfaces of regions. A copy."""
-        return self._handle.constrained_edges()
-
-    @property
-    def fixed(self) -> npt.NDArray[np.int32]:
-        """Vertices that must never move, (k,) int32, ascending. A copy. Assigning replaces these marks."""
-        return self._handle.fixed()
-
-    @fixed.setter
-    def fixed(self, vertices: npt.ArrayLike) -> None:
-        self._handle.set_fixed(_ints(vertices, 0, "fixed").astype(np.int64))
-
-    # --- tags and names -------------------------------------------------------------------------------------
-
-    def _file(self, *, with_data: bool = False) -> dict[str, Any]:
-        return _temper.file_as_dict(self._handle, with_data)
-
-    def _set_data(self, of_points: bool, name: str, array: npt.NDArray[Any] | None) -> None:
-        _temper.set_data(self._handle, of_points, name, array)
-
-    @property
-    def tags(self) -> npt.NDArray[np.int32]:
-        """Tag of each of ``lines``, (k,) int32. A copy. (Tags of triangles are ``regions``, tags of points are
-        ``point_tags``.)"""
-        return self._file()["line_tags"]
-
     # --- methods --------------------------------------------------------------------------------------------
 
     def faces_of(self, name: str | int) -> LineFaces:
@@ -496,19 +532,6 @@ class Mesh(Tagged):
             The mesh is not in the plane.
         """
         return LineFaces(**_temper.faces_of_line(self._handle, str(name)))
-
-    def set_constrained(self, edges: npt.ArrayLike, constrained: bool = True) -> None:
-        """Marks edges, (k, 2) pairs of vertices, so that they never flip, or removes the mark. TemperError if the mesh
-        has no such edge."""
-        self._handle.set_constrained(_ints(edges, 2, "edges").astype(np.int64), constrained)
-
-    def find_halfedge(self, a: int, b: int) -> int:
-        """The halfedge from vertex a to vertex b, or −1. O(degree)."""
-        return self._handle.find_halfedge(a, b)
-
-    def star(self, vertex: int) -> npt.NDArray[np.int32]:
-        """The halfedges that leave a vertex, counter-clockwise."""
-        return self._handle.star(vertex)
 
     def compact(self) -> npt.NDArray[np.int32]:
         """Drops everything that ``topology.remove_vertex`` erased. Returns the former number of each vertex."""
@@ -582,25 +605,11 @@ class Mesh(Tagged):
 
         return xugrid.UgridDataset(self.to_xarray(like))
 
-    def _form(self) -> Cells:
-        return meshio_form(self._handle)
-
-    def _vertices_of_points(self) -> npt.NDArray[np.int32]:
-        """Vertex of each original point, −1 if it is gone."""
-        return np.asarray(_temper.vertices_of_points(self._handle))
-
     # --- how it looks -------------------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
         where = "" if self.space == Space() else f" on {self.space!r}"
-        vertices = "1 vertex" if self.n_vertices == 1 else f"{self.n_vertices} vertices"
-        triangles = "1 triangle" if self.n_triangles == 1 else f"{self.n_triangles} triangles"
-        return f"<temper.Mesh: {vertices}, {triangles}{where}>"
-
-    def _repr_svg_(self) -> str | None:
-        if not 0 < self.n_triangles <= PICTURE:
-            return None
-        return _temper.draw_svg(self._handle, {"dual": False, "near_coincident": False, "width": PICTURE_WIDTH})
+        return self._shown(where)
 
 
 def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tuple[Any, ...]) -> Mesh:
@@ -641,19 +650,33 @@ def as_mesh(mesh: MeshLike, *, in_place: bool = False) -> Mesh:
     """
     if isinstance(mesh, Mesh):
         return mesh
-    if isinstance(getattr(mesh, "_handle", None), _temper.TetMesh):
-        takers = "quality, optimize, find_weights, dec_operators, measure_errors and write"
-        raise TypeError(f"expected a mesh of triangles, found a TetMesh. Next: temper.{takers} take it")
+    handle, messages = triangles_of(mesh, in_place, curved=False)
+    return _warn(Mesh._of(handle), messages, 3)
+
+
+_TAKERS = "temper.quality, optimize, find_weights, dec_operators, write and "
+
+
+def triangles_of(mesh: Any, in_place: bool = False, *, curved: bool = True) -> tuple[Any, list[str]]:
+    """The handle of a mesh of triangles of another library, and messages. See ``as_mesh``. ``curved``: it may be that of
+    a curved surface."""
+    handle = getattr(mesh, "_handle", None)
+    if isinstance(handle, _temper.TetMesh):
+        raise TypeError(f"expected a mesh of triangles, found a TetMesh. Next: {_TAKERS}measure_errors take it")
+    if isinstance(handle, _temper.SurfaceMesh):
+        raise TypeError(f"expected a mesh of the plane or a sphere, found a SurfaceMesh. Next: {_TAKERS}explain take it")
     cells = cells_of(mesh)
     if cells is None:
         raise TypeError(f"expected a temper.Mesh, or a mesh of meshio, PyVista, Gmsh, xarray or xugrid, found {type(mesh).__name__}")
     if in_place and is_ugrid(mesh):
         raise TypeError(f"a {type(mesh).__name__} cannot change in place. Next: change temper.as_mesh(grid)")
-    handle, messages = handle_of(cells)
-    return _warn(Mesh._of(handle), messages, 3)
+    return handle_of(cells, curved=curved)
 
 
-def _warn(mesh: Mesh, messages: list[str], level: int) -> Mesh:
+AnyTriangles = TypeVar("AnyTriangles", bound=Triangles)
+
+
+def _warn(mesh: AnyTriangles, messages: list[str], level: int) -> AnyTriangles:
     """The mesh, with its messages also as warnings at the line ``level`` calls up."""
     mesh.warnings = messages
     repeat_warnings(messages, level + 1)
@@ -702,7 +725,7 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
         raise TypeError(f"mesh: expected a meshio.Mesh, found {type(mesh).__name__}. Next: temper.as_mesh takes other classes")
     sets = {"point_sets": mesh.point_sets, "cell_sets": mesh.cell_sets}
     lost = [f"{kind} {', '.join(map(repr, names))} are left out" for kind, names in sets.items() if names]
-    handle, messages = handle_of(mesh, fixed_tags)
+    handle, messages = handle_of(mesh, fixed_tags, curved=False)
     return _warn(Mesh._of(handle), lost + messages, 2)
 
 

@@ -17,9 +17,10 @@ from ._mesh import PICTURE, Mesh, MeshLike, as_mesh, put_back
 from ._options import EffortName, KeepName, OptimizeOptions, TargetName, _words, lists_presets, rows_set, settled
 from ._progress import Line
 from ._records import Record
-from ._reports import OptimizeReport, Progress, TraceEvent
+from ._reports import OptimizeReport, Progress, SurfaceOptimizeReport, TraceEvent
 from ._tensor import CORNER_WEIGHTS, TensorLike, plain_tensor
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
+from ._surfaces import SurfaceMesh
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_planes, expect_no_options_of_triangles
 from .size import SizeField
 
 if TYPE_CHECKING:
@@ -104,12 +105,13 @@ def optimize(
     progress: bool | Callable[[Progress], Any] | None = None,
     hooks: Hooks | None = None,
     options: OptimizeOptions | OptionsAndProblem | None = None,
-) -> OptimizeReport:
+) -> OptimizeReport | SurfaceOptimizeReport:
     """Improves a mesh in place: moves vertices, changes weights and flips edges until every triangle is well-centered.
 
     In a mesh of tetrahedra, orthocenters come inside their tetrahedra. ``size_field``, ``hooks`` and many
     options are for triangles alone, and options that begin with ``tets_`` for tetrahedra: an error names them. Where
-    tetrahedra stay bad, vertices are inserted and removed.
+    tetrahedra stay bad, vertices are inserted and removed. Vertices of a curved surface stay near it, within the option
+    ``surface_distance`` (docs/howto/surfaces.md); ``tensor``, ``size_field`` and ``hooks`` are not for surfaces.
 
     A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual:
     all h > 0 and all 0 < d < ℓ. Every triangle stays counter-clockwise. The domain boundary, fixed vertices and
@@ -120,7 +122,7 @@ def optimize(
 
     Parameters
     ----------
-    mesh : Mesh, TetMesh, or of another library
+    mesh : Mesh, TetMesh, SurfaceMesh, or of another library
         The mesh, changed in place. To keep the original, optimize ``mesh.copy()``.
     target : str
         Use of the mesh.
@@ -164,7 +166,7 @@ def optimize(
 
     Returns
     -------
-    OptimizeReport
+    OptimizeReport, or SurfaceOptimizeReport for a curved surface
 
     Raises
     ------
@@ -219,11 +221,12 @@ def optimize(
     is_silent = observer is not None or _is_helper(hooks.communicator)
     line = Line(False if is_silent else progress, "tetrahedra" if isinstance(changed, TetMesh) else "triangles")
     watch = _observer(line, observer)
-    _temper.check_cells(plain, target, _words(keep), rows_set(options, changes), isinstance(changed, TetMesh))
-    if isinstance(changed, TetMesh):
-        expect_no_options_of_triangles(optimize, size_field=size_field, problem=own, **vars(hooks))
+    _temper.check_cells(plain, target, _words(keep), rows_set(options, changes), changed._handle)
+    if not isinstance(changed, Mesh):
+        refuse = expect_no_options_of_triangles if isinstance(changed, TetMesh) else expect_no_options_of_planes
+        refuse(optimize, size_field=size_field, problem=own, **vars(hooks))
         with _put_back_at_end(mesh, changed, line):
-            report, data, lost = _temper.tet_optimize(
+            report, data, lost = _temper.optimize_in_space(
                 changed._handle, plain, threads, watch, plain_tensor(changed, tensor)
             )
         for sentence in lost:
@@ -251,7 +254,7 @@ def optimize(
 
 
 @contextlib.contextmanager
-def _put_back_at_end(mesh: AnyMeshLike, changed: Mesh | TetMesh, line: Line) -> Iterator[None]:
+def _put_back_at_end(mesh: AnyMeshLike, changed: Mesh | TetMesh | SurfaceMesh, line: Line) -> Iterator[None]:
     """Writes the changed mesh into the mesh of another library that it came from, also after an exception."""
     before = changed._handle.version()
     try:

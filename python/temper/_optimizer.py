@@ -114,7 +114,7 @@ class Optimizer:
         self._options = settled(target, effort, keep, options, **changes)._plain()
         self._threads = threads
         is_of_tets = isinstance(mesh, TetMesh)
-        _temper.check_cells(self._options, target, _words(keep), rows_set(options, changes), is_of_tets)
+        _temper.check_cells(self._options, target, _words(keep), rows_set(options, changes), mesh._handle)
         _temper.check_optimizer(self._options, is_of_tets)
         self._waiting: dict[str, list[npt.NDArray[Any]]] = {}
         self._size_field: SizeField | None = None

@@ -224,8 +224,9 @@ def _names(mesh: Any, dropped: list[str]) -> tuple[list[tuple[int, int, str]], d
     return names, field_data
 
 
-def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, list[str]]:
-    """A handle of a mesh in the form of meshio, and messages about omissions and changes."""
+def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = (), *, curved: bool = True) -> tuple[Any, list[str]]:
+    """A handle of a mesh in the form of meshio, and messages about omissions and changes. ``curved``: a curved surface is
+    no error."""
     dropped: list[str] = list(getattr(mesh, "left_out", ()))
     for block in mesh.cells:
         if block.type not in ("triangle", "quad", "line", "vertex") and len(block.data):
@@ -255,7 +256,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
         "points": points, "weights": weights, "triangles": corners, "regions": regions, "point_data": point_data,
         "cell_data": cell_data, **_lines_and_points(mesh, dropped),
     }  # fmt: skip
-    handle, messages = _temper.mesh_from_file_arrays(arrays, [str(tag) for tag in fixed_tags])
+    handle, messages = _temper.mesh_from_file_arrays(arrays, [str(tag) for tag in fixed_tags], curved)
     if len(held := getattr(mesh, "held", ())):
         vertices = _temper.vertices_of_points(handle)
         held = held if vertices is None else vertices[held]

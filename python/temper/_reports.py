@@ -283,6 +283,63 @@ class TetQuality(_looks.TetQuality):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class SurfaceQuality(Record):
+    """The quality of a curved surface: counts decided exactly, margins in doubles."""
+
+    vertices: int
+    """Vertices."""
+    triangles: int
+    """Triangles."""
+    edges: int
+    """Edges."""
+    boundary_edges: int
+    """Edges of one triangle."""
+    regions: int
+    """Different regions of triangles."""
+    inverted_triangles: int
+    """Triangles that are clockwise, exact."""
+    non_regular_edges: int
+    """Interior edges with negative dual, exact."""
+    negative_boundary_duals: int
+    """Boundary edges with h < 0, exact."""
+    negative_region_coefficients: int
+    """Sides of interfaces between regions with h < 0, exact: the coefficient of this region alone is negative."""
+    nonpositive_distances: int
+    """Interior edges with dual ≤ 0, exact."""
+    nonpositive_boundary_distances: int
+    """Boundary edges with h ≤ 0, exact."""
+    nonpositive_region_distances: int
+    """Sides of interfaces between regions with h ≤ 0, exact."""
+    orthocenters_outside: int
+    """Triangles with some h ≤ 0, exact."""
+    edges_not_crossed: int
+    """Edges without 0 < d < ℓ, exact."""
+    well_centered_fraction: float
+    """Triangles with all h > 0 and 0 < d < ℓ."""
+    min_coefficient: float
+    """Least coefficient, which is dual/ℓ of edges, and h/ℓ on the sides of interfaces; also the least distance over
+    ℓ."""
+    min_h_over_l: float
+    """Least h/ℓ of triangles and their edges."""
+    min_d_over_l: float
+    """Least d/ℓ or 1 − d/ℓ of edges."""
+    min_angle_deg: float
+    """Least angle of triangles."""
+    max_angle_deg: float
+    """Largest angle of triangles."""
+    max_transmissibility_over_median: float
+    """Largest over median ℓ/\\|dual\\| of interior edges."""
+    transmissibility_ratio: float
+    """Largest over least ℓ/\\|dual\\| of interior edges."""
+    min_coefficient_place: EdgePlace
+    """Edge with the least coefficient."""
+    histograms: Histograms = dataclasses.field(repr=False)
+    """Histograms of angles, h/ℓ and d/ℓ."""
+    worst: list[WorstTriangle]
+    """Worst triangles, the worst first."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class Spread(Record):
     """The distribution of many numbers: percentiles by nearest rank. All are 0 if there are no numbers."""
 
@@ -385,6 +442,56 @@ class OptimizeReport(_looks.OptimizeReport):
     """Number of each vertex in the input; inserted vertices follow, with −1. Empty if none was removed or inserted."""
     size: SizeChange | None
     """Change of the sizes; absent for tetrahedra."""
+    changed: ChangeCounts | None
+    """Changes of the run, with change = least."""
+    notes: list[str]
+    """Notes for the user, in sentences."""
+    history: list[SweepRecord] = dataclasses.field(repr=False)
+    """One record per sweep; history[0] is the input. Triangles are flipped to be regular before."""
+    data: DataReport | TetDataReport | None = dataclasses.field(default=None, kw_only=True)
+    """Report on the data of the mesh; None without data."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SurfaceOptimizeReport(Record):
+    """The result of ``optimize``."""
+
+    sweeps: int
+    """Number of sweeps."""
+    seconds: float
+    """Time of the optimization alone [s]."""
+    stopped: Literal["converged", "max_sweeps", "max_outer", "time_limit", "canceled", "tangled", "sweep_limit", "hidden"]
+    """Reason for the end of the run. tangled: triangles are inverted and no flips can make the mesh regular. hidden:
+    deferred flips hid a vertex against the policy, and the mesh is an earlier one. sweep_limit: all sweeps for the
+    accuracy are done, a normal end."""
+    objective: Literal["energy", "accuracy", "solver_error"]
+    """Objective that the run lowered."""
+    objective_before: float
+    """Objective of the input, at the final γ."""
+    objective_after: float
+    """Objective of the result."""
+    vertices_removed: int
+    """Number of vertices of the input that were removed."""
+    hidden_vertices: npt.NDArray[np.int32]
+    """None."""
+    vertices_inserted: int
+    """Number of new vertices."""
+    flips: int
+    """Number of changes of connectivity without a new or removed vertex."""
+    bad_before: int
+    """Number of triangles or tetrahedra of the input that are not well-centered, before any flip."""
+    bad_after: int
+    """Number of these in the result."""
+    vertices: npt.NDArray[np.int32]
+    """Number of each vertex in the input, −1 for inserted ones."""
+    surface_distance: float
+    """Largest distance between input and result, measured both ways [length]."""
+    diagonal: float
+    """Diagonal of the bounding box of the input [length]."""
+    repairs: int
+    """Number of edits next to bad triangles."""
+    crease_edges: int
+    """Number of edges of creases, which stay."""
     changed: ChangeCounts | None
     """Changes of the run, with change = least."""
     notes: list[str]
@@ -800,6 +907,26 @@ class TetExplanation(_looks.TetExplanation):
     """Number of bad tetrahedra with all corners on the boundary."""
     reasons: list[TetReason]
     """Bad tetrahedra, the worst first."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SurfaceExplanation(Record):
+    """The bad triangles of a curved surface, and what weights alone can do."""
+
+    triangles: int
+    """Number of triangles."""
+    bad: int
+    """Number of triangles that are not well-centered, exact."""
+    verdict: Literal["feasible", "infeasible", "undecided"]
+    """Verdict on weights of the whole mesh, if nothing else changes."""
+    changed: int
+    """Number of weights that change, if the verdict is feasible."""
+    margin: float
+    """Best margin of weights, or a bound of it."""
+    certificate: Certificate
+    """Proof that there are no weights; null: there is none."""
+    worst: list[WorstTriangle]
+    """Worst bad triangles with their reasons, the worst first."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

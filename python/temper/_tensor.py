@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import Mesh, MeshLike, as_mesh
+from ._surfaces import SurfaceMesh
 from ._tets import TetMesh
 
 TensorLike = Union[Sequence[float], npt.ArrayLike, Mapping[int, Sequence[float]], Mapping[str, Sequence[float]]]
@@ -20,7 +21,7 @@ CORNER_WEIGHTS = "corner_weights"
 [length²]."""
 
 
-def values_of_regions(mesh: Mesh | TetMesh, values: Mapping[Any, Any], what: str) -> npt.NDArray[np.float64]:
+def values_of_regions(mesh: Mesh | TetMesh | SurfaceMesh, values: Mapping[Any, Any], what: str) -> npt.NDArray[np.float64]:
     """The value of the region of each triangle or tetrahedron. ``values``: by tag or name."""
     regions, which = np.unique(mesh.regions, return_inverse=True)
     dimension = 3 if isinstance(mesh, TetMesh) else 2
@@ -43,10 +44,12 @@ def values_of_regions(mesh: Mesh | TetMesh, values: Mapping[Any, Any], what: str
     return np.array([values_of[int(r)] for r in regions], dtype=np.float64)[which]
 
 
-def plain_tensor(mesh: Mesh | TetMesh, tensor: TensorLike | None) -> tuple[Any, ...] | None:
+def plain_tensor(mesh: Mesh | TetMesh | SurfaceMesh, tensor: TensorLike | None) -> tuple[Any, ...] | None:
     """Tensors for the compiled module: three or six numbers, or an array (m, 3) or (m, 6) and the weights of corners."""
     if tensor is None:
         return None
+    if isinstance(mesh, SurfaceMesh):
+        raise TypeError("tensor is not for curved surfaces. Next: leave it out")
     is_tets = isinstance(mesh, TetMesh)
     names, n = ("kxx, kxy, kxz, kyy, kyz, kzz", 6) if is_tets else ("kxx, kxy, kyy", 3)
     m = mesh.n_tetrahedra if isinstance(mesh, TetMesh) else mesh.n_triangles

@@ -10,8 +10,9 @@ import numpy.typing as npt
 
 from . import _temper
 from ._cells import Cells
-from ._mesh import Mesh, MeshLike, Tagged, _doubles, _ints, _tags, as_mesh, repeat_warnings
+from ._mesh import Mesh, MeshLike, Tagged, _doubles, _ints, _tags, _warn, as_mesh, repeat_warnings, triangles_of
 from ._others import cells_of, meshio_form_of_tets, meshio_of, tet_arrays
+from ._surfaces import SurfaceMesh
 
 _OUTWARD = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # corners of the face opposite each corner
 
@@ -281,25 +282,51 @@ def _from_cells(cells: Any, level: int) -> TetMesh:
     return TetMesh._of(handle, dropped + messages, level + 1)
 
 
-AnyMeshLike = Union[TetMesh, MeshLike]
-"""A mesh of triangles or of tetrahedra, of temper or of another library."""
+AnyMeshLike = Union[TetMesh, SurfaceMesh, MeshLike]
+"""A mesh of triangles, of tetrahedra or of a curved surface, of temper or of another library."""
 
 
-def as_any_mesh(mesh: AnyMeshLike, *, in_place: bool = False) -> Mesh | TetMesh:
-    """The mesh itself, or the mesh of another library: a ``TetMesh`` if it has tetrahedra. ``in_place``: as in
-    ``as_mesh``."""
-    if isinstance(mesh, TetMesh):
+def as_any_mesh(mesh: AnyMeshLike, *, in_place: bool = False) -> Mesh | TetMesh | SurfaceMesh:
+    """The mesh itself, or the mesh of another library: a ``TetMesh`` if it has tetrahedra, a ``SurfaceMesh`` if it is
+    curved. ``in_place``: as in ``as_mesh``."""
+    if isinstance(mesh, (Mesh, TetMesh, SurfaceMesh)):
         return mesh
-    cells = None if isinstance(mesh, Mesh) else cells_of(mesh)
+    cells = cells_of(mesh)
     if cells is not None and any(block.type == "tetra" and len(block.data) for block in cells.cells):
         return _from_cells(cells, 3)
-    return as_mesh(mesh, in_place=in_place)
+    handle, messages = triangles_of(mesh, in_place)
+    is_curved = isinstance(handle, _temper.SurfaceMesh)
+    return _warn(SurfaceMesh._of(handle) if is_curved else Mesh._of(handle), messages, 3)
+
+
+def as_triangles(mesh: AnyMeshLike) -> Mesh | SurfaceMesh:
+    """As ``as_any_mesh``. TypeError for tetrahedra."""
+    if isinstance(mesh, TetMesh):
+        triangles_of(mesh)
+    return as_any_mesh(mesh)  # type: ignore[return-value]
+
+
+def as_flat_mesh(mesh: AnyMeshLike) -> Mesh | TetMesh:
+    """As ``as_any_mesh``. TypeError for a curved surface."""
+    any_mesh = as_any_mesh(mesh)
+    if isinstance(any_mesh, SurfaceMesh):
+        as_mesh(any_mesh)
+    return any_mesh  # type: ignore[return-value]
 
 
 def expect_no_options_of_triangles(function: Callable[..., Any], **given: Any) -> None:
     """TypeError for the first of these arguments whose value is not its default in the function, or None."""
+    _refuse("for triangles alone", function, given)
+
+
+def expect_no_options_of_planes(function: Callable[..., Any], **given: Any) -> None:
+    """The same for options that curved surfaces do not have."""
+    _refuse("not for curved surfaces", function, given)
+
+
+def _refuse(why: str, function: Callable[..., Any], given: dict[str, Any]) -> None:
     parameters = inspect.signature(function).parameters
     for name, value in given.items():
         default = parameters[name].default if name in parameters else None
         if value is not default and (default is None or value != default):
-            raise TypeError(f"{name} is for triangles alone. Next: leave it out")
+            raise TypeError(f"{name} is {why}. Next: leave it out")

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 from typing import Any, Literal
 
 import numpy as np
@@ -12,11 +13,13 @@ import numpy.typing as npt
 
 from . import _temper
 from ._certificate import Certificate, Constraints, WeightConstraint, read_certificate
+from ._dec import DecEdges, IncidenceMatrix, _Complex
 from ._mesh import Mesh, MeshLike, _ints, as_mesh
 from ._records import Record, expect, merged
 from ._reports import EdgeConflict
 from ._tensor import TensorLike, plain_tensor
-from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_triangles
+from ._surfaces import SurfaceMesh
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, as_triangles, expect_no_options_of_triangles
 
 
 @dataclasses.dataclass(frozen=True)
@@ -120,6 +123,50 @@ class Optimality(Record):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class IntrinsicMesh(_Complex):
+    """A triangulation of a curved surface after intrinsic flips, with its operators. An edge is straight across two
+    unfolded triangles, and known by its length. Vertices are those of the mesh. Arrays are as in ``DecComplex``; nothing
+    but vertices has a place, so ``edges.midpoint`` is empty."""
+
+    flips: int
+    blocked: int
+    """Number of edges whose dual lengths stay negative, because they cannot flip."""
+    bad_before: int
+    """Number of bad triangles before the first flip."""
+    bad_after: int
+    """Number of bad triangles with the weights found."""
+    rounds: int
+    """Number of triangulations that were tried up to this one."""
+    triangles: npt.NDArray[np.int32]
+    """Corners of each triangle, (m, 3)."""
+    weights: npt.NDArray[np.float64]
+    """Weight of each vertex, (n,) [length²]."""
+    edges: DecEdges
+    edge_of_halfedge: npt.NDArray[np.int32]
+    d0: IncidenceMatrix
+    d1: IncidenceMatrix
+    star0: npt.NDArray[np.float64]
+    star1: npt.NDArray[np.float64]
+    star2: npt.NDArray[np.float64]
+    transmissibility: npt.NDArray[np.float64]
+    areas: npt.NDArray[np.float64]
+    _handle: Any = dataclasses.field(repr=False, compare=False)
+
+    @classmethod
+    def _of(cls, handle: Any, numbers: dict[str, int]) -> IntrinsicMesh:
+        d = handle.arrays()
+        d["edges"] = DecEdges(**merged(d["edges"], midpoint=np.empty((0, 3))), named={})
+        d["d0"], d["d1"] = IncidenceMatrix(**d["d0"]), IncidenceMatrix(**d["d1"])
+        names = {field.name for field in dataclasses.fields(cls)}
+        return cls(**{name: values for name, values in d.items() if name in names}, **numbers, _handle=handle)
+
+    def write(self, folder: str | os.PathLike[str], **_: Any) -> list[str]:
+        """Writes ``operators.npz`` and the matrices for SciPy into a folder, as ``temper weights --flips intrinsic``.
+        Returns the paths of the files."""
+        return self._handle.write(os.fspath(folder))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class WeightReport(Record):
     """The result of ``find_weights``."""
 
@@ -153,6 +200,8 @@ class WeightReport(Record):
     """With tensors that differ: weight of each corner of each triangle, (m, 3) [length²], for
     ``mesh.cell_data["corner_weights"]``. Of each tetrahedron, (m, 4), for ``mesh.weights``. ``weights`` then has one of
     the weights of each vertex."""
+    intrinsic: IntrinsicMesh | None = None
+    """With intrinsic flips: the triangulation that has the ``weights``. The mesh itself has other triangles."""
 
     @classmethod
     def _of(cls, d: dict[str, Any]) -> WeightReport:
@@ -175,13 +224,14 @@ def find_weights(
     offset_factor: float = 10.0,
     boundary_offset_factor: float = 5.0,
     tensor: TensorLike | None = None,
+    flips: Literal["none", "intrinsic"] = "none",
 ) -> WeightReport:
     """Finds weights for a mesh with fixed positions and connectivity, by linear programming (Clp) or by an interior
     point method. The mesh does not change.
 
     Parameters
     ----------
-    mesh : Mesh, TetMesh, or of another library
+    mesh : Mesh, TetMesh, SurfaceMesh, or of another library
     goal : {"change", "margin", "elastic", "center", "accuracy", "least", "fewest"}
         change: the least change for the requested margin. margin: the best margin, and the least change for the
         requested margin or for half of the best one. elastic: the least violation, but at least half of the best margin
@@ -212,6 +262,9 @@ def find_weights(
     tensor : sequence of float, (m, 3) array, or dict of region to sequence, optional
         Diffusion tensors, as in ``optimize``: constraints hold in their metrics. If they differ, weights keep the
         equations of interfaces, and ``corner_weights`` has them; goals center, accuracy, least and fewest are refused.
+    flips : {"none", "intrinsic"}
+        intrinsic: flips edges of a curved surface on it, while the number of bad triangles falls. The surface stays, and
+        ``intrinsic`` of the report has the triangulation, because no mesh of points has its edges.
 
     Notes
     -----
@@ -231,10 +284,20 @@ def find_weights(
     'feasible'
     """
     any_mesh = as_any_mesh(mesh)
+    if flips not in ("none", "intrinsic"):
+        raise ValueError(f"flips: expected 'none' or 'intrinsic', found {flips!r}")
+    if flips == "intrinsic" and not isinstance(any_mesh, SurfaceMesh):
+        raise TypeError("flips is for curved surfaces alone. Next: leave it out")
     wanted = goal, margin, from_input, whole, rings, constraints, offset_factor, boundary_offset_factor
     if isinstance(any_mesh, TetMesh):
         expect_no_options_of_triangles(find_weights, edges=edges)
         d = _temper.tet_find_weights(any_mesh._handle, *wanted, plain_tensor(any_mesh, tensor))
+    elif flips == "intrinsic":
+        plain_tensor(any_mesh, tensor)
+        if edges is not None:
+            raise TypeError("edges is not for intrinsic flips. Next: leave it out")
+        d, numbers, handle = _temper.find_intrinsic_weights(any_mesh._handle, *wanted)
+        return dataclasses.replace(WeightReport._of(d), intrinsic=IntrinsicMesh._of(handle, numbers))
     else:
         d = _temper.find_weights(any_mesh._handle, *wanted, _edges(edges), plain_tensor(any_mesh, tensor))
     return WeightReport._of(d)
@@ -268,10 +331,10 @@ def weight_margin(
     return _temper.weight_margin(any_mesh._handle, constraints, _edges(edges))
 
 
-def weight_change(mesh: MeshLike, before: npt.ArrayLike, after: npt.ArrayLike) -> float:
+def weight_change(mesh: AnyMeshLike, before: npt.ArrayLike, after: npt.ArrayLike) -> float:
     """Σ over edges |Δw_i − Δw_j| / (2ℓ): the total shift of the weighted midpoints. On the sphere ℓ is the length of
     chords."""
-    return _temper.weight_change(as_mesh(mesh)._handle, before, after)
+    return _temper.weight_change(as_triangles(mesh)._handle, before, after)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -319,10 +382,13 @@ class ConnectivityProof(Record):
 
 
 def check_certificate(
-    mesh: AnyMeshLike, certificate: Certificate | ConnectivityProof, *, tensor: TensorLike | None = None
+    mesh: AnyMeshLike | IntrinsicMesh, certificate: Certificate | ConnectivityProof, *, tensor: TensorLike | None = None
 ) -> str:
     """Verifies a certificate, or a proof over connectivities, in exact arithmetic, from the positions and the diffusion
-    tensors alone. Returns ``"proves"`` if no weights exist, else the fault of the certificate."""
+    tensors alone. Returns ``"proves"`` if no weights exist, else the fault of the certificate. A certificate of intrinsic
+    flips is for ``WeightReport.intrinsic``."""
+    if isinstance(mesh, IntrinsicMesh):
+        return _temper.check_certificate(mesh._handle, expect("certificate", certificate, Certificate)._plain(), None)
     any_mesh = as_any_mesh(mesh)
     if isinstance(certificate, ConnectivityProof) and tensor is not None:
         raise ValueError("tensor: proofs over connectivities are for meshes without tensors. Next: leave it out")

@@ -14,7 +14,7 @@ from ._optimize import Replay, Snapshot
 from ._optimizer import Update
 from ._outline import OutlineFile, OutlineMesh
 from ._certificate import Certificate, WeightConstraint
-from ._reports import ChangeCounts, CrossingConflict, CrossingSide, Cure, DataReport, DecSummary, DiffusionErrors, DiffusionMatrices, EdgeConflict, ErrorMatrices, ErrorNorms, ErrorSystem, Explanation, FaceHeight, FanCenter, FieldFrame, Histogram, Histograms, OptimizeReport, Progress, Quality, Reason, SizeChange, SweepRecord, TetDataReport, TetDecSummary, TetExplanation, TetHistograms, TetQuality, TetReason, TraceEvent, WorstTet, WorstTriangle
+from ._reports import ChangeCounts, CrossingConflict, CrossingSide, Cure, DataReport, DecSummary, DiffusionErrors, DiffusionMatrices, EdgeConflict, ErrorMatrices, ErrorNorms, ErrorSystem, Explanation, FaceHeight, FanCenter, FieldFrame, Histogram, Histograms, OptimizeReport, Progress, Quality, Reason, SizeChange, SurfaceExplanation, SurfaceOptimizeReport, SurfaceQuality, SweepRecord, TetDataReport, TetDecSummary, TetExplanation, TetHistograms, TetQuality, TetReason, TraceEvent, WorstTet, WorstTriangle
 from ._measure_errors import FieldErrors, OperatorErrors, ErrorField, ErrorLevel, ErrorReport, DiffusionProblem, TetErrorReport
 from ._weights import (
     BestMargin,
@@ -22,6 +22,7 @@ from ._weights import (
     ConnectivityProof,
     ConnectivityReport,
     ConnectivityStep,
+    IntrinsicMesh,
     Lemma,
     OffsetTerm,
     Optimality,

@@ -29,14 +29,13 @@ VERSION = 1  # of the schema
 # Reports on tetrahedra that are of the same class in Python as those on triangles.
 SAME_CLASS = {"TetOptimizeReport": "OptimizeReport", "TetFieldFrame": "FieldFrame"}
 # Reports that only the program has, and reports that npm has not.
-PROGRAM_ALONE = {"Outcome", "Verdict", "Operators", "TetOperators", "ColumnCounts", "SurfaceQuality", "SurfaceOptimizeReport", "SurfaceExplanation"}
-NOT_IN_NPM = {"TetExplanation", "TetReason", "FaceHeight", "DualExplanation", "DualReason", "DataReport", "DiffusionErrors", "DiffusionMatrices", "ErrorCounts", "ErrorMatrices", "ErrorNorms", "ErrorSystem", "FieldFrame"}
+PROGRAM_ALONE = {"Outcome", "Verdict", "Operators", "TetOperators", "ColumnCounts"}
+NOT_IN_NPM = {"SurfaceQuality", "SurfaceOptimizeReport", "SurfaceExplanation", "TetExplanation", "TetReason", "FaceHeight", "DualExplanation", "DualReason", "DataReport", "DiffusionErrors", "DiffusionMatrices", "ErrorCounts", "ErrorMatrices", "ErrorNorms", "ErrorSystem", "FieldFrame"}
 # Fields that Python adds.
-MORE = {
-    "OptimizeReport": """    data: DataReport | TetDataReport | None = dataclasses.field(default=None, kw_only=True)
+DATA = """    data: DataReport | TetDataReport | None = dataclasses.field(default=None, kw_only=True)
     \"\"\"Report on the data of the mesh; None without data.\"\"\"
 """
-}
+MORE = {"OptimizeReport": DATA, "SurfaceOptimizeReport": DATA}
 NOTE = "Written by scripts/docs/records.py --write from the tables in the library. Do not edit."
 
 

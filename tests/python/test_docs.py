@@ -53,7 +53,7 @@ def test_the_first_example_takes_public_meshes(mesh, in_scratch):
 
 
 MODULES = ["", ".geometry", "._mesh", "._optimize", "._options", "._measure", "._draw", ".energy", "._dec", "._measure_errors", "._weights",
-           "._explain", ".size", "._space", "._outline", "._tensor"]  # fmt: skip
+           "._explain", ".size", "._space", "._outline", "._tensor", "._surfaces"]  # fmt: skip
 
 
 @pytest.mark.parametrize("name", MODULES)
