@@ -2,7 +2,8 @@
 
     python3 combinatorial_spaces.py [IN [FOLDER]]
 
-docs/howto/decapodes.md has the Julia side. Numbers count from 1, as Julia's do.
+IN is a mesh of the plane, where z is 0, or a curved surface. docs/howto/decapodes.md has the Julia side. Numbers count
+from 1, as Julia's do.
 """
 
 import pathlib
@@ -26,8 +27,12 @@ def save(name, header, *columns):
     (folder / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-save("points.csv", "x,y", *np.asarray(mesh.points).T)
-save("edges.csv", "from,to,x,y,dual_length",
-     *(operators.edges.vertices + 1).T, *operators.edges.midpoint.T, operators.edges.dual_length)  # fmt: skip
-save("triangles.csv", "i,j,k,x,y", *(mesh.triangles + 1).T, *operators.orthocenters.T)
+def in_space(places):
+    return np.pad(places, ((0, 0), (0, 3 - places.shape[1]))).T
+
+
+save("points.csv", "x,y,z", *in_space(mesh.points))
+save("edges.csv", "from,to,x,y,z,dual_length",
+     *(operators.edges.vertices + 1).T, *in_space(operators.edges.midpoint), operators.edges.dual_length)  # fmt: skip
+save("triangles.csv", "i,j,k,x,y,z", *(mesh.triangles + 1).T, *in_space(operators.orthocenters))
 print(f"{folder}: {mesh.n_vertices} points, {len(operators.edges)} edges, {mesh.n_triangles} triangles")

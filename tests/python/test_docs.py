@@ -36,12 +36,43 @@ def test_what_the_example_for_julia_writes_is_the_dual(in_scratch):
     mesh = optimized(temper.generate.annulus())
     operators = temper.dec_operators(mesh)
     tables = {name: np.loadtxt(f"dual/{name}.csv", delimiter=",", skiprows=1) for name in ("points", "edges", "triangles")}
-    assert np.array_equal(tables["points"], mesh.points)
+    assert np.array_equal(tables["points"][:, :2], mesh.points) and not tables["points"][:, 2].any()
     assert np.array_equal(tables["triangles"][:, :3], mesh.triangles + 1)
-    assert np.array_equal(tables["triangles"][:, 3:], operators.orthocenters)
+    assert np.array_equal(tables["triangles"][:, 3:5], operators.orthocenters)
     assert np.array_equal(tables["edges"][:, :2], operators.edges.vertices + 1)
-    assert np.array_equal(tables["edges"][:, 2:], np.column_stack([operators.edges.midpoint, operators.edges.dual_length]))
-    assert (tables["edges"][:, 4] > 0).all()  # unsigned lengths are right
+    assert np.array_equal(tables["edges"][:, [2, 3, 5]], np.column_stack([operators.edges.midpoint, operators.edges.dual_length]))
+    assert (tables["edges"][:, 5] > 0).all()  # unsigned lengths are right
+
+
+def test_the_dual_for_julia_of_a_surface_has_the_laplacian_of_a_known_function(in_scratch):
+    """By the formulas of CombinatorialSpaces.jl: each triangle has six dual triangles, from a vertex over the center of
+    an edge to the center of the triangle. ⋆1 is the length of a dual edge over that of its edge, ⋆0 the area of a dual
+    cell. On the torus the integral of |∇z|² is 2π² r R."""
+    import numpy as np
+
+    run([sys.executable, ROOT / "examples" / "tutorial" / "torus.py"])
+    mesh = temper.read("torus.obj")
+    temper.optimize(mesh)
+    temper.write("better.vtu", mesh)
+    run([sys.executable, ROOT / "examples" / "python" / "combinatorial_spaces.py", "better.vtu"])
+    points, edges, triangles = (np.loadtxt(f"dual/{name}.csv", delimiter=",", skiprows=1) for name in ("points", "edges", "triangles"))
+    ends = edges[:, :2].astype(int) - 1
+    number = {tuple(sorted(pair)): i for i, pair in enumerate(ends.tolist())}
+    dual, area = np.zeros(len(edges)), np.zeros(len(points))
+    for corners, center in zip(triangles[:, :3].astype(int) - 1, triangles[:, 3:]):
+        for a, b in zip(corners, np.roll(corners, 1)):
+            edge = number[tuple(sorted((a, b)))]
+            middle = edges[edge, 2:5]
+            dual[edge] += np.linalg.norm(center - middle)
+            for v in (a, b):
+                area[v] += np.linalg.norm(np.cross(middle - points[v], center - points[v])) / 2
+    lengths = np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)
+    operators = temper.dec_operators(mesh)
+    assert np.allclose(dual / lengths, operators.star1) and np.allclose(area, operators.star0) and np.allclose(dual, edges[:, 5])
+    z = points[:, 2]
+    laplacian = np.bincount(ends.ravel(), np.outer(dual / lengths * (z[ends[:, 0]] - z[ends[:, 1]]), [1, -1]).ravel()) / area
+    assert np.allclose(area * laplacian, operators.laplacian() @ z, atol=1e-12)
+    assert abs((area * z * laplacian).sum() / (2 * np.pi**2 * 0.4) - 1) < 0.03
 
 
 @pytest.mark.parametrize("mesh", ["skfem_annulus.msh", "sfepy_its2D.mesh"])

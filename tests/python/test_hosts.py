@@ -116,8 +116,34 @@ def test_the_accessor_takes_tetrahedra_and_names_what_it_cannot_take(pyvista):
         pyvista.ImageData(dimensions=(3, 3, 1)).temper.optimize()
     with pytest.raises(temper.TemperError, match="expected cells of type triangle or quad; 8 cells of type VTK 11 are left out"):
         pyvista.ImageData(dimensions=(3, 3, 3)).cast_to_unstructured_grid().temper.quality()
-    with pytest.raises(temper.TemperError, match="expected all on one sphere around the origin, or in a plane"):
-        pyvista.Cone().triangulate().temper.quality()
+
+
+def test_the_accessor_takes_curved_surfaces(pyvista):
+    torus = pyvista.ParametricTorus(ringradius=1, crosssectionradius=0.4, u_res=24, v_res=12).triangulate().clean(tolerance=1e-6)
+    torus.points[:] = torus.points.astype(float)
+    measured = torus.temper.quality()
+    assert isinstance(measured, temper.types.SurfaceQuality) and measured.boundary_edges == 0
+    better = torus.temper.optimize()
+    assert isinstance(better, pyvista.PolyData) and (better.cell_data["min_h_over_l"] > 0).all() and measured.orthocenters_outside > 0
+    assert len(better.point_data["weight"]) == better.n_points
+    cone = pyvista.Cone(resolution=24).triangulate()
+    before = temper.quality(cone).orthocenters_outside
+    temper.optimize(cone)
+    assert temper.quality(cone).orthocenters_outside <= before
+
+
+def test_pydec_has_the_same_stars_on_a_surface_of_acute_triangles():
+    """Its circumcentric duals have no sign and no weights."""
+    pydec = pytest.importorskip("pydec")
+    globe = temper.generate.icosahedral(3)
+    mesh = temper.SurfaceMesh(np.array(globe.points) * [1, 1, 0.9], globe.triangles)
+    assert temper.quality(mesh).orthocenters_outside == 0
+    dual = temper.dec_operators(mesh)
+    rows_of = np.arange(mesh.n_vertices)[:, None], dual.edges.vertices, mesh.triangles
+    for level, rows, star in zip(pydec.simplicial_complex((mesh.points, np.array(mesh.triangles))), rows_of, (dual.star0, dual.star1, dual.star2)):
+        place = {tuple(sorted(row)): i for i, row in enumerate(rows.tolist())}
+        order = [place[tuple(simplex)] for simplex in np.sort(level.simplices, axis=1).tolist()]
+        assert np.allclose(level.star.diagonal(), star[order], rtol=1e-10)
 
 
 # --- Gmsh -------------------------------------------------------------------------------------------------------------
