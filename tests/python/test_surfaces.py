@@ -137,6 +137,24 @@ def test_optimize_makes_a_surface_well_centered_near_the_input(torus, better):
     assert temper.explain_duals(torus, "any") is None
 
 
+def test_what_belongs_to_points_follows_them_when_some_are_inserted_or_removed():
+    globe = temper.generate.icosahedral(1)
+    for seed in range(2, 40):  # until a repair changes the vertices
+        points = globe.points + 0.23 * np.random.default_rng(seed).normal(size=(42, 3))
+        points *= [1, 1, 0.8] / np.linalg.norm(points, axis=1)[:, None]
+        mesh = temper.SurfaceMesh(points, globe.triangles, fixed=[5])
+        mesh.point_data["number"] = np.arange(42.0)
+        mesh.point_data_rules = "keep"
+        report = temper.optimize(mesh, options={"surface_distance": 0.05, "repair_trials": 4000})
+        if report.vertices_removed + report.vertices_inserted:
+            break
+    former, place = report.vertices, mesh._vertices_of_points()
+    assert len(former) == mesh.n_vertices and len(place) == 42 and report.vertices_removed == (place < 0).sum()
+    assert np.array_equal(place[former[former >= 0]], np.flatnonzero(former >= 0))
+    assert np.array_equal(mesh.point_data["number"][former >= 0], former[former >= 0])
+    assert np.array_equal(mesh.fixed, place[[5]]) and np.array_equal(mesh.points[place[5]], points[5])
+
+
 def test_weights_alone_and_with_intrinsic_flips(torus):
     own = temper.find_weights(torus, goal="fewest")
     assert own.verdict == "infeasible" and own.intrinsic is None
@@ -187,6 +205,14 @@ def test_other_libraries_have_surfaces(torus, better, ring):
         field_data={}, point_sets={}, cell_sets={},
     )  # fmt: skip
     assert temper.SurfaceMesh.from_meshio(given) == torus
+    unused = types.SimpleNamespace(**vars(given))
+    unused.points = np.vstack([[9, 9, 9], torus.points])
+    unused.cells = [types.SimpleNamespace(type=kind, data=1 + np.array(cells)) for kind, cells in (("triangle", torus.triangles), ("line", [[0, 1]]))]
+    with pytest.warns(temper.TemperWarning, match="1 point of no triangle is dropped: point 0"):
+        part = temper.SurfaceMesh.from_meshio(unused)
+    assert np.array_equal(part.points, torus.points) and part.lines.tolist() == [[0, 1]] == np.sort(part.constrained_edges).tolist()
+    part.point_data["z"] = part.points[:, 2]
+    assert len(part._form().points) == len(part.point_data["z"]) == 160
     assert temper.quality(given) == temper.quality(torus) and isinstance(temper.quality(given), temper.types.SurfaceQuality)
     for take in (temper.as_mesh, temper.from_meshio, temper.plot):
         with pytest.raises(temper.TemperError, match="point . has z = "):
