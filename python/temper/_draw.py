@@ -121,8 +121,8 @@ def draw_svg(
 
 def _tets(before: AnyMeshLike | None) -> Any:
     old = None if before is None else as_any_mesh(before)
-    if isinstance(old, Mesh):
-        raise TypeError("before: expected a TetMesh, found a Mesh")
+    if not (old is None or isinstance(old, TetMesh)):
+        raise TypeError(f"before: expected a TetMesh, found a {type(old).__name__}")
     return None if old is None else old._handle
 
 
@@ -209,7 +209,7 @@ def html_report(
     after = as_flat_mesh(mesh)
     if isinstance(after, Mesh):
         after._handle.require_plane("html_report()")
-    old = None if before is None else as_mesh(before) if isinstance(after, Mesh) else as_any_mesh(before)
+    old = None if before is None else as_mesh(before) if isinstance(after, Mesh) else as_flat_mesh(before)
     measures = _measures(after)
     shown: dict[str, Any] = {"verb": "check" if report is None else "optimize", "version": _temper.__version__}
     if old is not None:

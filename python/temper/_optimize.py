@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Literal, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Literal, Mapping, Sequence, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -90,6 +90,19 @@ class Hooks:
                 raise TypeError(f"{name}: expected a callable or None, found {call!r}")
 
 
+@overload
+def optimize(
+    mesh: SurfaceMesh, *, target: TargetName = ..., effort: EffortName = ..., keep: KeepName | Sequence[KeepName] = ...,
+    time_limit: float | None = ..., threads: int | None = ..., progress: bool | Callable[[Progress], Any] | None = ...,
+    options: OptimizeOptions | OptionsAndProblem | None = ...,
+) -> SurfaceOptimizeReport: ...  # fmt: skip
+@overload
+def optimize(
+    mesh: TetMesh | MeshLike, *, target: TargetName = ..., effort: EffortName = ..., keep: KeepName | Sequence[KeepName] = ...,
+    boundary: Literal["keep", "slide", "split"] | None = ..., size_field: SizeField | None = ..., tensor: TensorLike | None = ...,
+    time_limit: float | None = ..., threads: int | None = ..., progress: bool | Callable[[Progress], Any] | None = ...,
+    hooks: Hooks | None = ..., options: OptimizeOptions | OptionsAndProblem | None = ...,
+) -> OptimizeReport: ...  # fmt: skip
 @lists_presets
 def optimize(
     mesh: AnyMeshLike,
