@@ -55,15 +55,20 @@ class TetExplanation(Record):
         return "\n".join([Record.__str__(self), *(f"  tetrahedron {r.tetrahedron}: {r.text}" for r in self.reasons)])
 
 
+def _rows_of_run(report: Any, elements: str) -> list[tuple[str, str]]:
+    shown_below = ("vertices", "hidden_vertices", "bad_before", "bad_after", "size", "changed", "data", "notes")
+    rows = [row for row in Record._rows(report) if row[0] not in shown_below]
+    rows.insert(1, (f"bad {elements}", f"{report.bad_before} → {report.bad_after}"))
+    return rows
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class OptimizeReport(Record):
     _meshes: tuple[Mesh, Mesh] | None = dataclasses.field(default=None, repr=False, compare=False, kw_only=True)
     """The mesh before and after, for notebooks."""
 
     def _rows(self: Any) -> list[tuple[str, str]]:
-        shown_below = ("vertices", "hidden_vertices", "bad_before", "bad_after", "size", "changed", "data", "notes")
-        rows = [row for row in Record._rows(self) if row[0] not in shown_below]
-        rows.insert(1, ("bad triangles" if self.size else "bad tetrahedra", f"{self.bad_before} → {self.bad_after}"))
+        rows = _rows_of_run(self, "triangles" if self.size else "tetrahedra")
         if self.size:
             rows.append(("sizes within", f"1/{self.size.after.band:.3g} to {self.size.after.band:.3g} of the field"))
         if self.data is not None and self.data.interpolated:
@@ -74,3 +79,10 @@ class OptimizeReport(Record):
     def as_dict(self: Any) -> dict[str, Any]:
         """Adds the history to ``Record.as_dict``."""
         return {**Record.as_dict(self), "history": [record.as_dict() for record in self.history]}
+
+
+class SurfaceOptimizeReport(Record):
+    def _rows(self: Any) -> list[tuple[str, str]]:
+        return _rows_of_run(self, "triangles") + [("note", note) for note in self.notes]
+
+    as_dict = OptimizeReport.as_dict

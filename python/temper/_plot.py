@@ -185,12 +185,12 @@ def _expect_axes(ax: Any) -> None:
 
 
 def plot_history(report: Any, *, ax: Any = None) -> Any:
-    """Plots bad triangles and energy against sweeps, from an ``OptimizeReport``. Returns the axes."""
+    """Plots bad triangles and energy against sweeps, from a report of ``optimize``. Returns the axes."""
     from matplotlib import pyplot
 
-    from ._reports import OptimizeReport
+    from ._reports import OptimizeReport, SurfaceOptimizeReport
 
-    history = expect("report", report, OptimizeReport).history
+    history = (report if isinstance(report, SurfaceOptimizeReport) else expect("report", report, OptimizeReport)).history
     _expect_axes(ax)
     if ax is None:
         ax = pyplot.subplots(figsize=(6, 3.5), layout="constrained")[1]

@@ -453,7 +453,7 @@ class OptimizeReport(_looks.OptimizeReport):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class SurfaceOptimizeReport(Record):
+class SurfaceOptimizeReport(_looks.SurfaceOptimizeReport):
     """The result of ``optimize``."""
 
     sweeps: int

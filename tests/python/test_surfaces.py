@@ -125,7 +125,8 @@ def test_optimize_makes_a_surface_well_centered_near_the_input(torus, better):
     assert (report.bad_before, report.bad_after) == tuple(temper.quality(m).orthocenters_outside for m in (torus, mesh))
     assert 0 < report.surface_distance <= 0.005 * report.diagonal
     assert mesh == better and abs(mesh.point_data["height"] - mesh.points[:, 2]).max() < 0.05
-    assert report.data.interpolated == ["height"] and "surface_distance" in str(report)
+    assert report.data.interpolated == ["height"] and "surface_distance" in str(report) and " → 0" in report._repr_html_()
+    assert len(report.as_dict()["history"]) == len(report.history) == report.sweeps + 1
     kept = torus.copy()
     temper.optimize(kept, effort="quick", keep="positions")
     assert np.array_equal(kept.points, torus.points) and np.any(kept.weights)
