@@ -48,7 +48,7 @@ OTHERS = {
     "--effort": ("`optimize(effort=…)`", "`options_for`"),
     "--keep": ("`optimize(keep=…)`", "`options_for`"),
     "--options": ("`optimize(options=…)`", "`OptimizeOptions`"),
-    "weights --flips": ("`find_weights(flips=…)`", "`surfaces::find_intrinsic_weights`"),
+    "weights --flips": ("", "`surfaces::find_intrinsic_weights`"),
     "optimize --set": ("`optimize(options={…})`", "`OptimizeOptions`"),
     "--size-data": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
     "optimize --size": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
