@@ -338,7 +338,8 @@ PYBIND11_MODULE(_temper, m) {
   bind_surfaces(m);
   bind_generate(m);
   bind_geometry(m);
-  bind_change(m);
+  bind_topology(m);
+  bind_mesher(m);
   bind_optimize(m);
   bind_optimizer(m);
   bind_measure(m);

@@ -49,9 +49,8 @@ void add_files(Command& command, DrawSettings& s) {
   add_text(command, "--before", "IN0", s.before, "Second mesh, drawn to the left of IN at the same scale.");
 }
 
-void add_options(Command& command, DrawSettings& s) {
-  add_files(command, s);
-  command.group("Picture");
+/// What of a mesh is drawn, and from where.
+void add_parts(Command& command, DrawSettings& s) {
   add_text(
       command, "--cut", "AXIS[=VALUE]", s.cut,
       "Plane that cuts a mesh of tetrahedra, such as x=0.5. Without VALUE, the plane goes through the middle of the "
@@ -71,6 +70,10 @@ void add_options(Command& command, DrawSettings& s) {
   command.add_flag("--no-rings", s.no_rings, "Do not mark vertices that nearly coincide with a neighbor.");
   command.add_flag("--weights", s.options.weights,
                    "Draw a circle of radius sqrt|w| around each vertex of weight w. It is dashed if w < 0.");
+}
+
+/// What fills triangles and cells.
+void add_colors(Command& command, DrawSettings& s) {
   std::string colors = "none|";
   for (const TriangleValue& value : triangle_values()) colors += std::string(value.name) + "|";
   add_text(command, "--color", colors + "NAME", s.color,
@@ -86,6 +89,13 @@ void add_options(Command& command, DrawSettings& s) {
       "Cells to fill by their regions, instead of triangles by their margin: power cells or triangles. Of the edges, "
       "only boundaries and lines are drawn. Lines on faces of power cells are thick, and have their names.");
   add_tensor(command, s.tensor, "Draw meshes");
+}
+
+void add_options(Command& command, DrawSettings& s) {
+  add_files(command, s);
+  command.group("Picture");
+  add_parts(command, s);
+  add_colors(command, s);
   command.add_flag("--numbers", s.options.vertex_numbers, "Number the vertices, from 0.");
   add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "Factor on the radius of weight circles.");
   add_numbers(

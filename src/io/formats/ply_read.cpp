@@ -44,24 +44,29 @@ struct PlyJoined {
   std::size_t components = 1;
 };
 
-class PlyReader {
+/// What a file declares and holds, before it is a mesh.
+struct PlyContents {
+  std::string path;
+  bool binary = false;
+  std::vector<PlyElement> elements;
+  std::map<std::string, std::size_t, std::less<>> element_of_name;
+  std::map<std::pair<std::string, std::string>, PlyJoined> joined;  // of an element and a first property
+  std::vector<PhysicalName> names;
+
+  [[nodiscard]] PlyElement* find(std::string_view name) {
+    const auto it = element_of_name.find(name);
+    return it == element_of_name.end() ? nullptr : &elements[it->second];
+  }
+};
+
+/// Header and numbers of a file.
+class PlyScanner {
  public:
-  explicit PlyReader(Source& source)
-      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allocation_(source.allocation) {}
-  Document read() {
+  explicit PlyScanner(const Source& source) : scanner_(source.path, source.bytes) { contents_.path = source.path; }
+  PlyContents read() {
     header();
-    for (PlyElement& e : elements_) body(e);
-    PlyElement* vertex = find_element("vertex");
-    if (vertex == nullptr) fail(ErrorCode::empty_input, scanner_.path(), "the file has no element vertex");
-    vertices(*vertex);
-    if (PlyElement* face = find_element("face")) faces(*face);
-    if (PlyElement* edge = find_element("edge")) edges(*edge);
-    for (const PlyElement& e : elements_) {
-      if (e.n == 0 || e.name == "vertex" || e.name == "face" || e.name == "edge") continue;
-      if (e.name == "tristrips") refuse_element(scanner_.path(), 0, "triangle strip");
-      document_.file.warnings.push_back(text(scanner_.path(), ": elements ", in_quotes(e.name), " are dropped"));
-    }
-    return std::move(document_);
+    for (PlyElement& e : contents_.elements) body(e);
+    return std::move(contents_);
   }
 
  private:
@@ -92,9 +97,9 @@ class PlyReader {
   }
   void format(Scanner& line) {
     const std::string_view name = line.word("the name of a format"), version = line.word("the version of the format");
-    binary_ = name != "ascii";
+    contents_.binary = name != "ascii";
     endian_ = name == "binary_big_endian" ? std::endian::big : std::endian::little;
-    if ((binary_ && name != "binary_big_endian" && name != "binary_little_endian") || version != "1.0") {
+    if ((contents_.binary && name != "binary_big_endian" && name != "binary_little_endian") || version != "1.0") {
       fail(ErrorCode::unsupported, line.path(), "is PLY in format ", in_quotes(name), " ", in_quotes(version),
            "; temper reads ascii, binary_little_endian and binary_big_endian 1.0");
     }
@@ -108,9 +113,10 @@ class PlyReader {
       const std::int32_t components = line.integer("a number of components");
       const std::string joined(line.word("the name of an array"));
       if (components > 1)
-        joined_.emplace(std::pair(owner, text(joined, "_0")), PlyJoined{joined, static_cast<std::size_t>(components)});
+        contents_.joined.emplace(std::pair(owner, text(joined, "_0")),
+                                 PlyJoined{joined, static_cast<std::size_t>(components)});
     } else {
-      document_.file.names.push_back(read_physical_name(line));
+      contents_.names.push_back(read_physical_name(line));
     }
   }
   void element(Scanner& line) {
@@ -119,12 +125,12 @@ class PlyReader {
     const auto n = line.number<std::int64_t>("the number of elements");
     if (n < 0) fail(ErrorCode::syntax, line.path(), "expected the number of elements, found ", n);
     e.n = static_cast<std::size_t>(n);
-    if (!element_of_name_.emplace(e.name, elements_.size()).second)
+    if (!contents_.element_of_name.emplace(e.name, contents_.elements.size()).second)
       fail(ErrorCode::syntax, line.path(), "declares element ", in_quotes(e.name), " a second time");
-    elements_.push_back(std::move(e));
+    contents_.elements.push_back(std::move(e));
   }
   void property(Scanner& line) {
-    if (elements_.empty()) fail(ErrorCode::syntax, line.path(), "a property comes before the first element");
+    if (contents_.elements.empty()) fail(ErrorCode::syntax, line.path(), "a property comes before the first element");
     PlyProperty p;
     std::string_view word = line.word("a type");
     if (word == "list") {
@@ -135,7 +141,7 @@ class PlyReader {
     }
     p.scalar = type(word);
     p.name = line.word("the name of a property");
-    elements_.back().properties.push_back(std::move(p));
+    contents_.elements.back().properties.push_back(std::move(p));
   }
   [[nodiscard]] Scalar type(std::string_view name) const {
     for (const PlyType& row : kPlyTypes) {
@@ -147,14 +153,14 @@ class PlyReader {
   void body(PlyElement& e) {
     if (e.n == 0) return;
     std::size_t least = 0;  // bytes an element
-    for (const PlyProperty& p : e.properties) least += binary_ ? info(p.count.value_or(p.scalar)).bytes : 2;
+    for (const PlyProperty& p : e.properties) least += contents_.binary ? info(p.count.value_or(p.scalar)).bytes : 2;
     if (least == 0) fail(ErrorCode::syntax, scanner_.path(), "elements ", in_quotes(e.name), " have no properties");
     scanner_.check_room(e.n, text("elements ", in_quotes(e.name)), least);
     for (PlyProperty& p : e.properties) {
       if (!p.count) p.values = zeros(p.scalar, e.n);
     }
     for (std::size_t i = 0; i < e.n; ++i) {
-      if (!binary_) {
+      if (!contents_.binary) {
         scanner_.skip_space();
         e.text_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       }
@@ -170,10 +176,10 @@ class PlyReader {
   void list(PlyElement& e, const PlyProperty& p) {
     const std::int64_t n = whole_number(*p.count, text("the number of ", p.name));
     if (n < 0) {
-      fail(ErrorCode::syntax, binary_ ? scanner_.path() : scanner_.where(), "expected the number of ", p.name,
+      fail(ErrorCode::syntax, contents_.binary ? scanner_.path() : scanner_.where(), "expected the number of ", p.name,
            ", found ", n);
     }
-    scanner_.check_room(static_cast<std::uint64_t>(n), p.name, binary_ ? info(p.scalar).bytes : 2);
+    scanner_.check_room(static_cast<std::uint64_t>(n), p.name, contents_.binary ? info(p.scalar).bytes : 2);
     const bool corners = e.name == "face" && (p.name == "vertex_indices" || p.name == "vertex_index");
     for (std::int64_t k = 0; k < n; ++k) {
       if (!corners) {
@@ -182,7 +188,7 @@ class PlyReader {
       }
       const std::int64_t v = whole_number(p.scalar, "a vertex number");
       if (!std::in_range<std::int32_t>(v)) {
-        fail(ErrorCode::index_out_of_range, binary_ ? scanner_.path() : scanner_.where(), "vertex number ", v,
+        fail(ErrorCode::index_out_of_range, contents_.binary ? scanner_.path() : scanner_.where(), "vertex number ", v,
              " is beyond 32 bits");
       }
       e.corners.push_back(static_cast<std::int32_t>(v));
@@ -191,7 +197,7 @@ class PlyReader {
   }
   template <class T>
   T number(const std::string& expected) {
-    if (!binary_) return scanner_.number<T>(expected);
+    if (!contents_.binary) return scanner_.number<T>(expected);
     char bytes[sizeof(T)];
     std::memcpy(bytes, scanner_.bytes(sizeof(T), expected).data(), sizeof(T));
     if (endian_ != std::endian::native) std::reverse(bytes, bytes + sizeof(T));
@@ -206,14 +212,36 @@ class PlyReader {
       if constexpr (std::is_integral_v<T>) {
         if (std::in_range<std::int64_t>(value)) return static_cast<std::int64_t>(value);
       }
-      fail(ErrorCode::syntax, binary_ ? scanner_.path() : scanner_.where(), expected, " is ", value);
+      fail(ErrorCode::syntax, contents_.binary ? scanner_.path() : scanner_.where(), expected, " is ", value);
     });
   }
 
-  PlyElement* find_element(std::string_view name) {
-    const auto it = element_of_name_.find(name);
-    return it == element_of_name_.end() ? nullptr : &elements_[it->second];
+  Scanner scanner_;
+  PlyContents contents_;
+  std::endian endian_ = std::endian::native;
+};
+
+/// The mesh that the elements of a file make.
+class PlyReader {
+ public:
+  explicit PlyReader(Source& source)
+      : contents_(PlyScanner(source).read()), document_(new_document(source.path)), allocation_(source.allocation) {}
+  Document read() {
+    document_.file.names = std::move(contents_.names);
+    PlyElement* vertex = contents_.find("vertex");
+    if (vertex == nullptr) fail(ErrorCode::empty_input, contents_.path, "the file has no element vertex");
+    vertices(*vertex);
+    if (PlyElement* face = contents_.find("face")) faces(*face);
+    if (PlyElement* edge = contents_.find("edge")) edges(*edge);
+    for (const PlyElement& e : contents_.elements) {
+      if (e.n == 0 || e.name == "vertex" || e.name == "face" || e.name == "edge") continue;
+      if (e.name == "tristrips") refuse_element(contents_.path, 0, "triangle strip");
+      document_.file.warnings.push_back(text(contents_.path, ": elements ", in_quotes(e.name), " are dropped"));
+    }
+    return std::move(document_);
   }
+
+ private:
   static std::optional<Values> take(PlyElement& e, std::string_view name) {
     const auto it = std::find_if(e.properties.begin(), e.properties.end(),
                                  [&](const PlyProperty& p) { return p.name == name && !p.count; });
@@ -248,8 +276,8 @@ class PlyReader {
   }
   /// The array that begins with property i of the element, when its properties are consecutive; else null.
   [[nodiscard]] const PlyJoined* joined_at(const PlyElement& e, std::size_t i) const {
-    const auto it = joined_.find({e.name, e.properties[i].name});
-    if (it == joined_.end()) return nullptr;
+    const auto it = contents_.joined.find({e.name, e.properties[i].name});
+    if (it == contents_.joined.end()) return nullptr;
     for (std::size_t n = 1; n < it->second.components; ++n) {
       if (i + n >= e.properties.size()) return nullptr;
       const PlyProperty& next = e.properties[i + n];
@@ -269,7 +297,7 @@ class PlyReader {
       return values ? values : take(e, upper);
     };
     auto x = coordinate("x", "X"), y = coordinate("y", "Y"), z = coordinate("z", "Z");
-    if (!x || !y) fail(ErrorCode::syntax, scanner_.path(), "vertices have no property ", x ? "y" : "x");
+    if (!x || !y) fail(ErrorCode::syntax, contents_.path, "vertices have no property ", x ? "y" : "x");
     if (e.n == 0) return;
     const auto xs = to_doubles(std::move(*x)), ys = to_doubles(std::move(*y));
     const auto zs = z ? to_doubles(std::move(*z)) : std::vector<double>();
@@ -292,11 +320,10 @@ class PlyReader {
   }
   void faces(PlyElement& e) {
     if (e.n > 0 && e.ends.size() != e.n)
-      fail(ErrorCode::syntax, scanner_.path(), "faces have no list vertex_indices, or have two");
+      fail(ErrorCode::syntax, contents_.path, "faces have no list vertex_indices, or have two");
     for (const PlyProperty& p : e.properties) {
       if (p.count && p.name != "vertex_indices" && p.name != "vertex_index")
-        document_.file.warnings.push_back(
-            text(scanner_.path(), ": lists ", in_quotes(p.name), " of faces are dropped"));
+        document_.file.warnings.push_back(text(contents_.path, ": lists ", in_quotes(p.name), " of faces are dropped"));
     }
     const auto tags = document_.file.marked_points.tags;  // of vertices
     CellSorter sorter(document_, allocation_);
@@ -309,13 +336,13 @@ class PlyReader {
                  : n == 1 ? kVtkVertex
                  : n == 2 ? kVtkLine
                           : kVtkPolygon,
-                 e.corners.data() + start, n, binary_ ? scanner_.path() : text(scanner_.path(), ":", line));
-      if (n == 3 && !binary_) document_.names->triangle_lines.push_back(line);
-      if (n == 2 && !binary_) document_.names->line_lines.push_back(line);
+                 e.corners.data() + start, n, contents_.binary ? contents_.path : text(contents_.path, ":", line));
+      if (n == 3 && !contents_.binary) document_.names->triangle_lines.push_back(line);
+      if (n == 2 && !contents_.binary) document_.names->line_lines.push_back(line);
       start = e.ends[i];
     }
     if (!tags.empty() && document_.file.marked_points.size() > tags.size())
-      fail(ErrorCode::unsupported, scanner_.path(),
+      fail(ErrorCode::unsupported, contents_.path,
            "has marked points both as vertices with tags and as faces of one corner");
     sorter.distribute(take_data(e));
     if (!tags.empty()) document_.file.marked_points.tags = tags;
@@ -325,10 +352,10 @@ class PlyReader {
     const auto from = ends_of_edges(e, "vertex1"), to = ends_of_edges(e, "vertex2");
     if (e.n == 0) return;
     if (!f.lines.empty())
-      fail(ErrorCode::unsupported, scanner_.path(), "has edges both as elements and as faces of two corners");
+      fail(ErrorCode::unsupported, contents_.path, "has edges both as elements and as faces of two corners");
     for (std::size_t i = 0; i < e.n; ++i) f.lines.corners.push_back({from[i], to[i]});
     f.lines.data = take_data(e);
-    f.lines.tags = tags_of(f.lines.data, scanner_.path());
+    f.lines.tags = tags_of(f.lines.data, contents_.path);
     f.lines.tags.resize(e.n);
     document_.names->lines = RunLength(0, e.n);
     document_.names->line_lines = e.text_lines;
@@ -336,18 +363,13 @@ class PlyReader {
   std::vector<std::int32_t> ends_of_edges(PlyElement& e, std::string_view name) const {
     const auto values = e.n > 0 ? take(e, name) : Values(std::vector<std::int32_t>());
     const auto ends = values ? to_int32(*values) : std::nullopt;
-    if (!ends) fail(ErrorCode::syntax, scanner_.path(), "edges have no property ", name, " of 32-bit integers");
+    if (!ends) fail(ErrorCode::syntax, contents_.path, "edges have no property ", name, " of 32-bit integers");
     return *ends;
   }
 
-  Scanner scanner_;
+  PlyContents contents_;
   Document document_;
   AllocationLimits& allocation_;
-  bool binary_ = false;
-  std::endian endian_ = std::endian::native;
-  std::vector<PlyElement> elements_;
-  std::map<std::string, std::size_t, std::less<>> element_of_name_;
-  std::map<std::pair<std::string, std::string>, PlyJoined> joined_;  // of an element and a first property
 };
 
 }  // namespace
