@@ -29,12 +29,6 @@ double signed_area(const Polygon& polygon) {
   return 0.5 * doubled;
 }
 
-double perimeter(const Polygon& polygon) {
-  double sum = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) sum += length(polygon[(i + 1) % polygon.size()] - polygon[i]);
-  return sum;
-}
-
 std::size_t count_pieces(const Polygon& polygon, double spacing) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -24,7 +24,6 @@ struct Outline {
 
 /// Area, positive when counter-clockwise.
 [[nodiscard]] double signed_area(const Polygon& polygon);
-[[nodiscard]] double perimeter(const Polygon& polygon);
 /// The polygon with each side cut into equal pieces of about `spacing`, at least one.
 [[nodiscard]] Polygon divide_sides(const Polygon& polygon, double spacing);
 /// The number of points that divide_sides makes.

@@ -34,7 +34,7 @@ inline constexpr std::string_view kSelafinDate = "selafin:date";      ///< six i
 inline constexpr std::string_view kSelafinOrigin = "selafin:origin";  ///< two integers
 inline constexpr std::string_view kSelafinBed = "selafin:bed";  ///< bytes: the name of the bed, unless "BOTTOM [M]"
 inline constexpr std::string_view kSelafinTime = "selafin:time";
-inline constexpr std::string_view kSelafinBottom = "BOTTOM [M]", kSelafinFond = "FOND [M]";
+inline constexpr std::string_view kSelafinBottom = "BOTTOM [M]";
 
 /// The numbers of the boundary file (.cli) after the three codes, as data of marked points.
 inline constexpr std::string_view kSelafinBoundary = "selafin:boundary";

@@ -124,10 +124,6 @@ std::optional<std::string_view> Scanner::until(std::string_view mark) {
   return before;
 }
 
-std::size_t Scanner::line_at(const char* where) const {
-  return 1 + static_cast<std::size_t>(std::count(begin_, where, '\n'));
-}
-
 // Numbers that from_chars does not take: a leading plus, a Fortran exponent (1.0D+00), doubles out of range.
 template <class T>
 T Scanner::unusual_number(std::string_view w, std::string_view expected) const {

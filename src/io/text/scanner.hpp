@@ -69,7 +69,6 @@ class Scanner {
   void next_line();
   [[nodiscard]] const char* position() const { return at_; }
   [[nodiscard]] std::string_view tail() const { return {at_, remaining()}; }
-  [[nodiscard]] std::size_t line_at(const char* where) const;
 
  private:
   template <class T>

@@ -38,20 +38,4 @@ double tetrahedron_energy(const std::array<WeightedPoint, 4>& corners, double ga
   return star_energy({&face, 1}, p, gamma);
 }
 
-double least_height(const TetMesh& mesh, TetId t) {
-  const HalffaceId h = TetMesh::halfface(t, 0);
-  const LinkFace<double> face = link_face(mesh, h);
-  const WeightedPoint p = mesh.point(mesh.opposite(h));
-  const Apex<double> apex(face, {p.x, p.y, p.z}, p.w);
-  if (!(apex.volume6 > 0)) return -HUGE_VAL;
-  double least = face.factor * apex.along_normal;
-  for (const auto& e : face.edges) {
-    const Vector<double> v = apex.u - e.from;
-    const double m = std::sqrt(dot(v, v) * e.length2 - dot(v, e.along) * dot(v, e.along));
-    const double height = dot(v, e.plane) + apex.along_normal * dot(v, e.turn);
-    least = std::min(least, height / (kLengthOfArea * m * std::sqrt(m)));
-  }
-  return least;
-}
-
 }  // namespace temper::tets

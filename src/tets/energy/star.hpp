@@ -19,7 +19,5 @@ void collect_link(const TetMesh& mesh, VertexId v, std::vector<HalffaceId>& link
 [[nodiscard]] double star_energy(std::span<const LinkFace<double>> link, const WeightedPoint& p, double gamma);
 /// The energy of one tetrahedron.
 [[nodiscard]] double energy_of(const TetMesh& mesh, TetId t, double gamma);
-/// The least h/ℓ of a tetrahedron over its faces; −∞ unless it is positive.
-[[nodiscard]] double least_height(const TetMesh& mesh, TetId t);
 
 }  // namespace temper::tets
