@@ -5,7 +5,7 @@
     bench/loop.py --change sizes
 
 In each step one vertex of a hundred, inside the mesh, moves by up to --amount of its local size to any side, and an
-update follows. Each tenth step a whole run takes the same mesh with the same moves. With --change sizes, vertices do not
+update follows. The moves are halved as long as they would turn a tetrahedron over. Each tenth step a whole run takes the same mesh with the same moves. With --change sizes, vertices do not
 move. Instead a fine spot with half of the sizes moves on by a fifth of its radius. A row has, over all steps: seconds
 of the processor of an update and of a whole run, their ratio, the share of the vertices whose place or weight the update
 changed, the rows of a matrix to compute again, and the places that violate the criterion of the target. --check exits
@@ -156,8 +156,15 @@ def loop(mesh, target, arguments):
                 whole = with_points(mesh, places)
                 wholes.append(seconds_of(lambda whole=whole: temper.optimize(whole, target=target, threads=1, progress=False))[0])
         copy = mesh.copy()
-        getattr(optimizer, change[0])(*change[1:])
-        seconds, update = seconds_of(optimizer.update)
+        while True:
+            getattr(optimizer, change[0])(*change[1:])
+            try:
+                seconds, update = seconds_of(optimizer.update)
+                break
+            except temper.TemperError:
+                optimizer.forget()
+                places[moved] = (mesh.points[moved] + places[moved]) / 2
+                change = ("move", moved, places[moved])
         if arguments.threads > 1:
             again = temper.Optimizer(copy, target=target, threads=arguments.threads)
             getattr(again, change[0])(*change[1:])

@@ -60,6 +60,15 @@ def is_good(mesh):
     return q.well_centered_fraction == 1 if isinstance(mesh, temper.Mesh) else q.orthocenters_outside == 0
 
 
+def violations(mesh, target):
+    q = temper.quality(mesh)
+    if target == "any":
+        return 0 if is_good(mesh) else 1
+    if target == "cell":
+        return q.nonpositive_distances
+    return q.negative_coefficients if isinstance(mesh, temper.TetMesh) else q.non_regular_edges + q.negative_boundary_duals
+
+
 def entries(mesh, numbers):
     """The dual lengths or areas of the edges at each vertex, by the numbers given."""
     operators = temper.dec_operators(mesh)
@@ -240,6 +249,21 @@ def test_weights_that_hide_a_vertex_change():
     assert v in update.weighed
     assert mesh.weights[v] > -1
     assert update.report.bad_after == 0
+
+
+@pytest.mark.parametrize("target", ["any", "vertex", "cell"])
+@pytest.mark.parametrize("make", [plane, lambda: cube(8)])
+def test_an_update_changes_few_vertices(make, target):
+    mesh = make()
+    temper.optimize(mesh, target=target, progress=False)
+    optimizer = temper.Optimizer(mesh, target=target)
+    cells = mesh.triangles if isinstance(mesh, temper.Mesh) else mesh.tetrahedra
+    amount = 0.2 * np.median(np.linalg.norm(mesh.points[cells[:, 0]] - mesh.points[cells[:, 1]], axis=1))
+    for step in range(5):
+        disturb(mesh, optimizer, 0.01, amount, step)
+        update = optimizer.update()
+        assert violations(mesh, target) == 0
+        assert len(np.union1d(update.moved, update.weighed)) <= 0.05 * mesh.n_vertices
 
 
 @pytest.mark.parametrize("make", [lambda: temper.generate.random_sphere(500), lambda: temper.generate.random_periodic(500)])

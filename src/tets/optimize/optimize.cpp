@@ -123,7 +123,10 @@ class Driver : RepairRun {
     wanted.goal = WeightGoal::least;
     wanted.constraints = constraints_of(criterion_);
     wanted.from_input = changes_least();
-    if (changes_least()) wanted.whole = 0;  // in small meshes, too, only the surroundings of bad places
+    if (changes_least()) {  // only the corners of bad places, in small meshes, too; more where these do not suffice
+      wanted.whole = 0;
+      wanted.rings = 0;
+    }
     wanted.must_stop = [this] { return is_stopped(0); };
     const auto found = find_weights(draft_.mesh, *hooks_.solvers.lp(), wanted, hooks_.solvers.convex().get());
     if (!found || found->weights.size() != draft_.mesh.n_vertices()) return;
