@@ -28,6 +28,7 @@
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
 #include "temper/tets/weights.hpp"
+#include "watch.hpp"
 
 namespace temper::app {
 namespace {
@@ -53,6 +54,8 @@ enum class Connectivity { fixed, search };
 constexpr Choice<Connectivity> kConnectivities[] = {{"fixed", Connectivity::fixed},
                                                     {"search", Connectivity::search, CellKinds::triangles}};
 
+constexpr double kSearchLimit = 60;  // of the search over connectivities [s]
+
 constexpr Choice<bool> kFlips[] = {{"none", false}, {"intrinsic", true, CellKinds::surfaces}};
 
 struct WeightsSettings {
@@ -67,7 +70,7 @@ struct WeightsSettings {
   Connectivity connectivity = Connectivity::fixed;
   bool intrinsic_flips = false;
   std::uint64_t whole = WeightOptions().whole, programs = ConnectivityOptions().programs;
-  double time_limit = 60;
+  std::optional<double> time_limit;
   TensorOption tensor;
   bool json = false, zero = false;
 };
@@ -189,8 +192,10 @@ void add_connectivity(Command& command, WeightsSettings& s) {
       "Flips of edges of a curved surface. 'intrinsic' flips them on the surface, which stays. No mesh file holds "
       "such edges, so OUT is a folder for arrays: operators.npz has triangles, lengths, weights and operators.");
   add_count(command, "--programs", s.programs, 1, "Largest number of linear programs of the whole mesh in the search.");
-  add_number(command, "--time-limit", s.time_limit, kNotNegative,
-             "Time limit of the search in seconds. temper then reports the best bound so far. 0 sets no limit.");
+  add_number(
+      command, "--time-limit", s.time_limit, kNotNegative,
+      "Time limit in seconds. temper then writes no weights. But --connectivity search, which has a limit of 60 if "
+      "none is given, reports the best bound so far. 0 sets no limit.");
 }
 
 void add_options(Command& command, WeightsSettings& s) {
@@ -261,7 +266,6 @@ void check_usage(const Command& command, const WeightsSettings& s) {
         "--connectivity search has no use with --constraints regular, because flips alone make edges regular. "
         "Next: temper weights IN --zero -o OUT");
   }
-  if (!search && command.was_given("--time-limit")) lacks("--time-limit", "--connectivity search");
   if (s.options.goal == WeightGoal::center && command.was_given("--margin")) conflict("--mode center", "--margin");
   if (!s.intrinsic_flips) return;
   for (const char* option : {"--certificate", "--check-certificate", "--format"}) {
@@ -390,11 +394,19 @@ AnyMesh with_weights(AnyMesh mesh, const IdVector<VertexId, double>& weights) {
 std::optional<ConnectivityReport> searched(const WeightsSettings& s, const Input& input, LpSolver& solver) {
   if (s.connectivity == Connectivity::fixed) return std::nullopt;
   using Clock = std::chrono::steady_clock;
-  const auto end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s.time_limit));
+  const double limit = s.time_limit.value_or(kSearchLimit);
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit));
   catch_interrupts();
-  const auto stop = [&] { return interrupted() || (s.time_limit > 0 && Clock::now() >= end); };
+  const auto stop = [&] { return interrupted() || (limit > 0 && Clock::now() >= end); };
   return or_fail(best_connectivity(input.mesh(), solver, {s.options.constraints, s.programs, stop}));
+}
+
+/// The weights of a mesh. A signal or the time limit ends the process, unless a search came before, which has its own.
+template <class Mesh>
+WeightReport found(const WeightsSettings& s, const Mesh& mesh, bool is_searched = false) {
+  const std::optional<Watch> watch =
+      is_searched ? std::nullopt : std::optional<Watch>(std::in_place, s.time_limit.value_or(0));
+  return or_fail(find_weights(mesh, *clp_solver(), s.options, interior_point_solver().get()));
 }
 
 /// Puts the mesh back into the file of the input, and writes it.
@@ -474,7 +486,7 @@ template <class Subject>
 Exit find_in_metric(const WeightsSettings& s, InputOf<Subject>& input, Outputs& outputs) {
   typename Subject::Pieces pieces =
       in_metric(input.mesh(), tensors_of(s.tensor, input), io::corner_weights_of(input.file, input.loaded), input);
-  const WeightReport report = or_fail(find_weights(pieces, *clp_solver(), s.options, interior_point_solver().get()));
+  const WeightReport report = found(s, pieces);
   InputOf<Subject> named = input;
   name_copies(named, pieces);
   WeightsRecord record = record_of(s, named, pieces.mesh, report, nullptr);
@@ -494,7 +506,7 @@ Exit find_in_metric(const WeightsSettings& s, InputOf<Subject>& input, Outputs& 
 template <class Subject>
 Exit find(const WeightsSettings& s, InputOf<Subject>& input, const typename Subject::Mesh& mesh,
           const ConnectivityReport* search, Outputs& outputs) {
-  const WeightReport report = or_fail(find_weights(mesh, *clp_solver(), s.options, interior_point_solver().get()));
+  const WeightReport report = found(s, mesh, search != nullptr);
   WeightsRecord record = record_of(s, input, mesh, report, search);
   if (report.solved && !s.output.path.empty()) {
     write_weighted(s, input, with_weights(mesh, report.weights), outputs);
@@ -525,8 +537,10 @@ Exit run(WeightsSettings& s, Input& input, Outputs& outputs) {
 /// Flips on the surface, finds weights, and writes arrays.
 Exit find_intrinsic(const WeightsSettings& s, const SurfaceInput& input, Outputs& outputs) {
   surfaces::IntrinsicMesh mesh(input.mesh());
-  const surfaces::IntrinsicWeights found =
-      or_fail(find_intrinsic_weights(mesh, *clp_solver(), s.options, interior_point_solver().get()));
+  const surfaces::IntrinsicWeights found = [&] {
+    const Watch watch(s.time_limit.value_or(0));
+    return or_fail(find_intrinsic_weights(mesh, *clp_solver(), s.options, interior_point_solver().get()));
+  }();
   WeightsRecord record = record_of(s, input, input.mesh(), found.report, nullptr);
   record.text = [&](const WeightConstraint& c) { return constraint_text(c, input, mesh); };
   record.triangle = triangles_of(mesh.connectivity());

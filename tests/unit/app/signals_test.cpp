@@ -69,5 +69,25 @@ TEST_F(Stopping, TheTimeLimitIsOfTheWholeRun) {
   EXPECT_EQ(read_json("r.json")["stopped"], "time_limit");
 }
 
+// One linear program of all triangles takes minutes.
+TEST_F(Stopping, EndsTheSearchForWeightsWith4AndNoFile) {
+  const std::vector<std::string> search = {"weights", "in.vtu", "-o", "w.vtu", "--whole", "1000000"};
+  std::vector<std::string> limited = search;
+  limited.insert(limited.end(), {"--time-limit", "0.2"});
+  const Outcome outcome = temper(limited);
+  EXPECT_EQ(outcome.exit, 4) << outcome.out;
+  EXPECT_TRUE(contains(outcome.err, "stopped by --time-limit after ")) << outcome.err;
+  int exit = 0;
+  for (auto delay = 500ms; exit != 4 && delay < 10s; delay *= 3) {  // a signal while temper reads kills it
+    const pid_t process = start(search, "out.txt", "err.txt");
+    std::this_thread::sleep_for(delay);
+    kill(process, SIGTERM);
+    exit = wait_for(process);
+  }
+  EXPECT_EQ(exit, 4);
+  EXPECT_TRUE(contains(read("err.txt"), "stopped by a signal after ")) << read("err.txt");
+  EXPECT_FALSE(exists("w.vtu"));
+}
+
 }  // namespace
 }  // namespace temper::test
