@@ -359,6 +359,12 @@ struct SurfaceOptions {
 /// The options of a surface among those of all meshes. Errors: options that are out of range, or contradict each other.
 [[nodiscard]] Expected<SurfaceOptions> surface_options(const OptimizeOptions& options);
 
+/// The angles by which a surface turns at its edges, between the normals of neighbors.
+struct Turns {
+  std::size_t sharp = 0;   ///< Number of edges that turn more than SurfaceOptions::crease_angle_deg
+  double largest_deg = 0;  ///< Largest angle [degrees]
+};
+
 /// The objective is the energy at the least γ. A sweep is a round that moves all vertices.
 struct SurfaceReport : RunReport {
   Quality before, after;
@@ -369,6 +375,7 @@ struct SurfaceReport : RunReport {
   double diagonal = 0;      ///< Diagonal of the bounding box of the input [length]
   std::size_t repairs = 0;  ///< Number of edits next to bad triangles
   std::size_t crease_edges = 0;
+  Turns turns_before, turns_after;
   /// Number in the input of each vertex, invalid for inserted ones. Empty: the numbers are the same.
   IdVector<VertexId, VertexId> vertices;
 };

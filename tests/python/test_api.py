@@ -87,7 +87,7 @@ STRUCTS = {
     "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "tensor", "triangle_tensors", "tetrahedra_tensors", "corner_weights", "problem", "paper", "accuracy", "solver_error", "guard", "tets", "surfaces"}),
     "PaperSwitches": (temper.OptimizeOptions, set()),
     "OptimizeReport": (temper.types.OptimizeReport, {"corner_weights", "triangle_tensors"}), "RunReport": (temper.types.OptimizeReport, set()),
-    "SurfaceReport": (temper.types.SurfaceOptimizeReport, {"before", "after", "history", "violations_before", "violations_after"}),
+    "SurfaceReport": (temper.types.SurfaceOptimizeReport, {"before", "after", "history", "turns_before", "turns_after", "violations_before", "violations_after"}),
     "IntrinsicWeights": (temper.types.IntrinsicMesh, {"report"}),
     "SweepRecord": (temper.types.SweepRecord, set()),
     "DataReport": (temper.types.DataReport, set()),

@@ -318,6 +318,12 @@ std::string brief_text(const AnyQuality& before, const AnyQuality& after) {
   return text;
 }
 
+std::string turns_text(const surfaces::Turns& before, const surfaces::Turns& after) {
+  return two_numbers("edges sharper than creases", std::to_string(before.sharp), std::to_string(after.sharp)) +
+         two_numbers("largest turn (degrees)", fmt::format("{:.1f}", before.largest_deg),
+                     fmt::format("{:.1f}", after.largest_deg));
+}
+
 template <class Subject>
 std::string quality_text(const typename Subject::Quality& quality, const InputOf<Subject>& input,
                          const TextStyle& style) {

@@ -83,6 +83,8 @@ std::string details_text(const OptimizeSettings& s, const RunResults<Subject>& r
 template <class Subject>
 void print_result(const OptimizeSettings& s, const RunResults<Subject>& results, const Outputs& outputs) {
   print(brief_text(results.before, results.after));
+  if constexpr (requires { results.report.turns_after; })
+    print(turns_text(results.report.turns_before, results.report.turns_after));
   if (s.details) print(details_text(s, results));
   if (!results.errors_text.empty()) print("\n" + results.errors_text + "\n");
   const auto& report = results.report;

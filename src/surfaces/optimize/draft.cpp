@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "surfaces/optimize/barrier.hpp"
 
@@ -20,6 +22,33 @@ std::array<Vec3, 2> tangents_of(Vec3 normal) {
   return {unit, (1 / length(other)) * other};
 }
 
+std::array<Vec3, 3> places_of(const std::array<VertexId, 3>& corners, const IdVector<VertexId, WeightedPoint>& points) {
+  return {points[corners[0]].position(), points[corners[1]].position(), points[corners[2]].position()};
+}
+
+/// Says whether a triangle still faces the way that it did, and has not become thin.
+bool has_kept_shape(const std::array<Vec3, 3>& before, const std::array<Vec3, 3>& after) {
+  const Vec3 n = normal_of(before[0], before[1], before[2]), m = normal_of(after[0], after[1], after[2]);
+  return dot(n, m) >= kLeastCosine * length(n) * length(m) && width_of(after) >= std::min(kThin, width_of(before));
+}
+
+/// The pairs of triangles with a common edge.
+std::vector<std::array<std::size_t, 2>> neighbors_of(const std::vector<std::array<VertexId, 3>>& triangles) {
+  std::vector<std::pair<std::array<VertexId, 2>, std::size_t>> sides;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+      sides.push_back({{std::min(a, b), std::max(a, b)}, t});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::array<std::size_t, 2>> pairs;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i - 1].first == sides[i].first) pairs.push_back({sides[i - 1].second, sides[i].second});
+  }
+  return pairs;
+}
+
 }  // namespace
 
 double width_of(const std::array<Vec3, 3>& triangle) {
@@ -28,17 +57,45 @@ double width_of(const std::array<Vec3, 3>& triangle) {
   return length(normal_of(a, b, c)) / longest;
 }
 
-bool has_kept_shape(const std::array<Vec3, 3>& before, const std::array<Vec3, 3>& after) {
-  const Vec3 n = normal_of(before[0], before[1], before[2]), m = normal_of(after[0], after[1], after[2]);
-  return dot(n, m) >= kLeastCosine * length(n) * length(m) && width_of(after) >= std::min(kThin, width_of(before));
+double turn_deg(Vec3 normal, Vec3 other) {
+  return std::atan2(length(cross(normal, other)), dot(normal, other)) * (180 / std::numbers::pi);
 }
 
-bool DraftEnergy::has_kept_shape(std::size_t e) const {
-  const auto places = [&](const IdVector<VertexId, WeightedPoint>& points) {
-    const auto& [a, b, c] = corners(e);
-    return std::array{points[a].position(), points[b].position(), points[c].position()};
+void go_back(Draft& draft, const IdVector<VertexId, WeightedPoint>& first, const TurnLimit& limit) {
+  std::vector<std::array<std::size_t, 2>> neighbors;
+  if (limit.sharp < 180) neighbors = neighbors_of(draft.triangles);
+  const auto undo = [&](std::size_t t) {
+    bool changed = false;
+    for (const VertexId v : draft.triangles[t]) {
+      const Vec3 p = first[v].position();
+      changed = changed || draft.points[v].position() != p;
+      draft.points[v] = {p.x, p.y, p.z, draft.points[v].w};
+    }
+    return changed;
   };
-  return surfaces::has_kept_shape(places(first_), places(draft_.points));
+  const auto turn = [&](const std::array<std::size_t, 2>& sides, const IdVector<VertexId, WeightedPoint>& points) {
+    const auto normal = [&](std::size_t t) {
+      const auto [a, b, c] = places_of(draft.triangles[t], points);
+      return normal_of(a, b, c);
+    };
+    return turn_deg(normal(sides[0]), normal(sides[1]));
+  };
+  const auto is_bad = [&](std::size_t t) {
+    const auto& [a, b, c] = draft.triangles[t];
+    return !is_well_centered(first[a], first[b], first[c]);
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t t = 0; t < draft.triangles.size(); ++t) {
+      const std::array<VertexId, 3>& corners = draft.triangles[t];
+      if (!has_kept_shape(places_of(corners, first), places_of(corners, draft.points))) changed = undo(t) || changed;
+    }
+    for (const std::array<std::size_t, 2>& sides : neighbors) {
+      const double now = turn(sides, draft.points);
+      if (now <= limit.sharp || now <= limit.at(turn(sides, first), is_bad(sides[0]) || is_bad(sides[1]))) continue;
+      for (const std::size_t t : sides) changed = undo(t) || changed;
+    }
+  }
 }
 
 DraftEnergy::DraftEnergy(Draft& draft, double gamma)
@@ -119,25 +176,13 @@ void DraftEnergy::lower(int steps, const std::function<bool()>& must_stop) {
   }
 }
 
-void DraftEnergy::project(const ClosestPoints& surface) {
+void DraftEnergy::project(const ClosestPoints& surface, const TurnLimit& limit) {
   for (const VertexId v : IdRange<VertexId>(first_.size())) {
     if (draft_.moves[v] == 0) continue;
     const Vec3 at = surface.find(draft_.points[v].position()).at;
     draft_.points[v] = {at.x, at.y, at.z, draft_.points[v].w};
   }
-  const auto go_back = [&](VertexId v) {
-    const WeightedPoint& p = first_[v];
-    const bool was_back = draft_.points[v].position() == p.position();
-    draft_.points[v] = {p.x, p.y, p.z, draft_.points[v].w};
-    return !was_back;
-  };
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t e = 0; e < n_elements(); ++e) {
-      if (has_kept_shape(e)) continue;
-      for (const VertexId v : corners(e)) changed = go_back(v) || changed;
-    }
-  }
+  go_back(draft_, first_, limit);
   keep();
 }
 

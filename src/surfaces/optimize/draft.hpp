@@ -1,6 +1,7 @@
 // A surface, or a part of it, whose vertices move in their tangent planes and come back to the input surface.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -25,8 +26,26 @@ struct Draft {
 [[nodiscard]] double width_of(const std::array<Vec3, 3>& triangle);
 /// Widths below this are thin: a step makes no triangle thin, and no thin one thinner.
 inline constexpr double kThin = 0.2;
-/// Says whether a triangle still faces the way that it did, and has not become thin.
-[[nodiscard]] bool has_kept_shape(const std::array<Vec3, 3>& before, const std::array<Vec3, 3>& after);
+[[nodiscard]] inline Vec3 normal_at(const SurfaceMesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.points(t);
+  return normal_of(a.position(), b.position(), c.position());
+}
+/// The angle by which the surface turns at an edge: between the normals of its triangles [degrees].
+[[nodiscard]] double turn_deg(Vec3 normal, Vec3 other);
+
+/// The largest turns that a step may make [degrees]. Without sharp turns of the input a surface cannot stay near it,
+/// and bad triangles between them need others.
+struct TurnLimit {
+  double sharp = 180;     ///< At edges that do not turn more before the step
+  double at_bad = 180;    ///< At the edges of triangles that are not well-centered before it
+  double sharpest = 180;  ///< At edges that turn more than `sharp` before it
+  [[nodiscard]] double at(double before, bool is_bad) const {
+    return std::max({sharp, is_bad ? at_bad : 0, before > sharp ? sharpest : 0});
+  }
+};
+
+/// Takes vertices back to their first places, until no triangle folds over or becomes thin, and no edge turns too much.
+void go_back(Draft& draft, const IdVector<VertexId, WeightedPoint>& first, const TurnLimit& limit);
 
 /// The sum of the energies of all triangles (barrier.hpp), as Descent needs it. A vertex has three unknowns: two in its
 /// tangent plane, in units of its mean edge, and its weight, in units of the square of that.
@@ -52,17 +71,14 @@ class DraftEnergy {
 
   /// Lowers the energy. `steps`: the most.
   void lower(int steps, const std::function<bool()>& must_stop);
-  /// Takes moved vertices to the closest points of a surface. Where triangles would fold over or become thin, vertices
-  /// go back to where they were at first.
-  void project(const ClosestPoints& surface);
+  /// Takes moved vertices to the closest points of a surface, or back to where they were at first (go_back).
+  void project(const ClosestPoints& surface, const TurnLimit& limit);
 
  private:
   [[nodiscard]] Vec3 normal_of(std::size_t e, const IdVector<VertexId, WeightedPoint>& points) const {
     const auto& [a, b, c] = draft_.triangles[e];
     return surfaces::normal_of(points[a].position(), points[b].position(), points[c].position());
   }
-
-  [[nodiscard]] bool has_kept_shape(std::size_t e) const;
 
   Draft& draft_;
   double gamma_;

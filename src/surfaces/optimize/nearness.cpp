@@ -53,12 +53,16 @@ std::vector<VertexId> Nearness::too_far(const SurfaceMesh& mesh) const {
 }
 
 double Nearness::distance(const SurfaceMesh& mesh) const {
-  double most2 = 0;
-  for (const VertexId v : mesh.vertices()) most2 = std::max(most2, closest_.find(mesh.position(v)).squared_distance);
-  for_each_sample(mesh, [&](Vec3 p, TriangleId) { most2 = std::max(most2, closest_.find(p).squared_distance); });
+  double most = 0;
+  // Points that are closer than others before end their search early.
+  const auto add = [&](const ClosestPoints& to, Vec3 p) {
+    most = std::max(most, std::sqrt(to.find(p, most).squared_distance));
+  };
+  for (const VertexId v : mesh.vertices()) add(closest_, mesh.position(v));
+  for_each_sample(mesh, [&](Vec3 p, TriangleId) { add(closest_, p); });
   const ClosestPoints now(mesh);
-  for (const Vec3 p : samples_) most2 = std::max(most2, now.find(p).squared_distance);
-  return std::sqrt(most2);
+  for (const Vec3 p : samples_) add(now, p);
+  return most;
 }
 
 }  // namespace temper::surfaces

@@ -20,6 +20,9 @@ namespace {
 constexpr int kRounds = 16, kSteps = 30;
 constexpr double kFirstGamma = 1, kLastGamma = 0.01, kGammaFactor = 0.72;
 constexpr double kSteepGamma = 0.4;  // factor from one descent of weights alone to the next
+// Edges of triangles that are not well-centered may turn more than creases by this angle [degrees]. With 0, two more
+// public meshes (bunny, screwdriver) keep bad triangles.
+constexpr double kMoreAtBad = 20;
 // Linear programs are for the last bad triangles: around many of them their regions meet, and cost minutes.
 constexpr std::size_t kFewBad = 100;
 
@@ -44,19 +47,17 @@ double diagonal_of(const SurfaceMesh& mesh) {
   return length(box.high - box.low);
 }
 
+/// The turn at an edge; 0 on the boundary.
+double turn_at(const SurfaceMesh& mesh, HalfedgeId h) {
+  if (mesh.connectivity().is_boundary(h)) return 0;
+  return turn_deg(normal_at(mesh, Mesh::triangle(h)), normal_at(mesh, Mesh::triangle(mesh.connectivity().twin(h))));
+}
+
 /// The halfedges of creases that are not constrained yet. A thin triangle with two such edges stands off the surface:
 /// its normal says nothing about it.
 std::vector<HalfedgeId> creases_of(const SurfaceMesh& mesh, double angle_deg) {
   const Mesh& connectivity = mesh.connectivity();
-  const auto normal = [&](HalfedgeId h) {
-    const auto [a, b, c] = mesh.points(Mesh::triangle(h));
-    return normal_of(a.position(), b.position(), c.position());
-  };
-  const auto is_sharp = [&](HalfedgeId h) {
-    if (connectivity.is_boundary(h)) return false;
-    const Vec3 left = normal(h), right = normal(connectivity.twin(h));
-    return std::atan2(length(cross(left, right)), dot(left, right)) * (180 / std::numbers::pi) > angle_deg;
-  };
+  const auto is_sharp = [&](HalfedgeId h) { return turn_at(mesh, h) > angle_deg; };
   const auto stands_off = [&](TriangleId t) {
     const auto [a, b, c] = mesh.points(t);
     if (width_of({a.position(), b.position(), c.position()}) >= kThin) return false;
@@ -84,32 +85,19 @@ IdVector<VertexId, std::uint8_t> held_vertices(const SurfaceMesh& mesh) {
   return holds;
 }
 
-/// Takes vertices back to where they were, until no triangle folds over or becomes thin.
-void unfold(SurfaceMesh& mesh, const SurfaceMesh& before) {
-  const auto places = [](const SurfaceMesh& of, TriangleId t) {
-    const auto [a, b, c] = of.points(t);
-    return std::array{a.position(), b.position(), c.position()};
-  };
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const TriangleId t : mesh.triangles()) {
-      if (has_kept_shape(places(before, t), places(mesh, t))) continue;
-      for (const VertexId v : mesh.connectivity().corners(t)) {
-        changed = changed || mesh.position(v) != before.position(v);
-        mesh.set_position(v, before.position(v));
-      }
-    }
-  }
-}
-
-/// Takes vertices back to where they were, until all is near the input. False if that is not enough.
-bool take_back(SurfaceMesh& mesh, const SurfaceMesh& before, const Nearness& nearness) {
+/// Gives a mesh the points of a draft, whose vertices go back to their first places until all is near the input. False
+/// if that is not enough.
+bool take(SurfaceMesh& mesh, Draft& draft, const IdVector<VertexId, WeightedPoint>& first, const Run& run) {
   constexpr int kTries = 8;
-  for (int i = 0; i < kTries; ++i) {
-    const std::vector<VertexId> far = nearness.too_far(mesh);
+  for (int i = 0; i < kTries && !run.must_stop(); ++i) {
+    for (const VertexId v : mesh.vertices()) {
+      mesh.set_position(v, draft.points[v].position());
+      mesh.set_weight(v, draft.points[v].w);
+    }
+    const std::vector<VertexId> far = run.nearness.too_far(mesh);
     if (far.empty()) return true;
-    for (const VertexId v : far) mesh.set_position(v, before.position(v));
-    unfold(mesh, before);
+    for (const VertexId v : far) draft.points[v] = {first[v].x, first[v].y, first[v].z, draft.points[v].w};
+    go_back(draft, first, run.limit);
   }
   return false;
 }
@@ -133,6 +121,17 @@ double energy_of(const SurfaceMesh& mesh, double gamma) {
 }
 
 }  // namespace
+
+Turns turns_of(const SurfaceMesh& mesh, double sharp_deg) {
+  Turns turns;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.connectivity().is_edge_representative(h)) continue;
+    const double turn = turn_at(mesh, h);
+    turns.sharp += turn > sharp_deg ? 1 : 0;
+    turns.largest_deg = std::max(turns.largest_deg, turn);
+  }
+  return turns;
+}
 
 Expected<SurfaceOptions> surface_options(const OptimizeOptions& options) {
   if (auto right = check_together(options, CellKinds::surfaces); !right) return right.error();
@@ -173,18 +172,16 @@ void Run::move_all(State& state, bool with_weights) {
   for (int round = 0; round < kRounds && best.bad > 0 && !must_stop(); ++round) {
     const SurfaceMesh before = state.mesh;
     Draft draft = draft_of(before, state.holds, with_weights);
+    const IdVector<VertexId, WeightedPoint> first = draft.points;
     DraftEnergy energy(draft, gamma);
     energy.lower(kSteps, [this] { return must_stop(); });
-    energy.project(nearness.input());
-    for (const VertexId v : before.vertices()) {
-      state.mesh.set_position(v, draft.points[v].position());
-      state.mesh.set_weight(v, draft.points[v].w);
-    }
-    if (!take_back(state.mesh, before, nearness)) state.mesh = before;
+    if (must_stop()) break;
+    energy.project(nearness.input(), limit);
+    if (!take(state.mesh, draft, first, *this)) state.mesh = before;
     std::size_t flips = 0;
     if (options.may_flip) {
       const SurfaceMesh unflipped = state.mesh;
-      flips = flip_negative_duals(state.mesh, nearness);
+      flips = flip_negative_duals(state.mesh, nearness, limit);
       if (flips > 0 && !nearness.too_far(state.mesh).empty()) {
         state.mesh = unflipped;
         flips = 0;
@@ -198,6 +195,17 @@ void Run::move_all(State& state, bool with_weights) {
     gamma = std::max(kLastGamma, gamma * kGammaFactor);
   }
   state = std::move(best);
+}
+
+State Run::moved(const State& input, State best) {
+  for (const bool with_weights : {false, true}) {
+    if (best.bad == 0 || must_stop()) break;
+    State changed = input;
+    move_all(changed, with_weights);
+    find_weights(changed);
+    if (changed.bad < best.bad) best = std::move(changed);
+  }
+  return best;
 }
 
 void Run::find_weights(State& state) const {
@@ -255,28 +263,35 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
   report.bad_before = violations(report.before, Criterion::well_centered);
   report.objective_before = energy_of(mesh, kLastGamma);
   run.record({.energy = report.objective_before, .bad = input.bad, .length_parameter = kLastGamma});
-  State best = input;
-  run.find_weights(best);
-  for (const bool with_weights : {false, true}) {
+  State weighted = input;
+  run.find_weights(weighted);
+  const double sharp = options.crease_angle_deg;
+  const Turns turns = turns_of(mesh, sharp);
+  const double most = std::max(sharp, turns.largest_deg);
+  State best = weighted;
+  for (const TurnLimit& limit : {TurnLimit{sharp, sharp, most}, {sharp, sharp + kMoreAtBad, most}, {}}) {
     if (best.bad == 0 || !options.may_move || run.must_stop()) break;
-    State start = input;
-    run.move_all(start, with_weights);
-    run.find_weights(start);
-    if (start.bad < best.bad) best = std::move(start);
-  }
-  if (best.bad > 0 && options.may_insert && options.may_move) {
-    run.repair(best);
-    run.find_weights(best);
+    run.limit = limit;
+    State found = run.moved(input, weighted);
+    if (limit.at_bad > sharp && options.may_insert) run.repair(found);
+    if (found.bad < best.bad) best = std::move(found);
   }
   Mesh& result = SurfaceEditor(best.mesh).connectivity();
   for (const auto& [a, b] : best.creases) result.set_constrained(result.find_halfedge(a, b), false);
-  mesh = std::move(best.mesh);
-  report.after = quality(mesh);
+  report.turns_before = report.turns_after = turns;
+  report.after = report.before;
+  report.objective_after = report.objective_before;
+  if (best.bad < input.bad) {
+    mesh = std::move(best.mesh);
+    report.after = quality(mesh);
+    report.turns_after = turns_of(mesh, sharp);
+    report.surface_distance = nearness.distance(mesh);
+    report.objective_after = energy_of(mesh, kLastGamma);
+  }
   report.violations_before = violations(report.before, options.criterion);
   report.violations_after = violations(report.after, options.criterion);
-  report.surface_distance = nearness.distance(mesh);
-  report.objective_after = energy_of(mesh, kLastGamma);
   report.bad_after = violations(report.after, Criterion::well_centered);
+  report.repairs = best.repairs;
   if (report.repairs > 0) report.vertices = best.origins;
   count_vertices(report, report.vertices, report.before.vertices);
   report.seconds = run.seconds();

@@ -225,7 +225,7 @@ void Patch::descend(const Run& run) {
   for (const double gamma : kGammas) {
     DraftEnergy energy(draft_, gamma);
     energy.lower(kStepsOfPatch, [&run] { return run.must_stop(); });
-    energy.project(run.nearness.input());
+    energy.project(run.nearness.input(), {});
   }
   // Projections lower margins, so the weights alone follow.
   const auto moves = std::exchange(draft_.moves, IdVector<VertexId, std::uint8_t>(draft_.moves.size(), 0));
@@ -253,7 +253,7 @@ std::optional<std::size_t> Patch::bad(const Run& run) const {
   }
   arrays.regions = regions_;
   const std::optional<SurfaceMesh> mesh = arrays.build();
-  if (!mesh) return std::nullopt;
+  if (!mesh || turns_of(*mesh, 0).largest_deg > run.limit.sharpest) return std::nullopt;
   return run.bad(*mesh);
 }
 
@@ -307,6 +307,7 @@ std::optional<State> Patch::applied() const {
   }
   for (const auto& [a, b, c] : triangles)
     arrays.triangles.push_back({number(kept[a]), number(kept[b]), number(kept[c])});
+  next.repairs = state_.repairs;
   next.creases = creases(number_of_local);
   for (auto& [a, b] : next.creases) {
     a = kept[a], b = kept[b];

@@ -43,6 +43,7 @@ std::optional<State> best_edit(Run& run, const State& state, TriangleId center, 
   std::optional<State> next = best->applied();
   if (!next) return std::nullopt;
   next->bad = run.bad(next->mesh);
+  if (turns_of(next->mesh, 0).largest_deg > run.limit.sharpest) return std::nullopt;
   if (next->bad >= state.bad || !run.nearness.too_far(next->mesh).empty()) return std::nullopt;
   return next;
 }
@@ -50,6 +51,7 @@ std::optional<State> best_edit(Run& run, const State& state, TriangleId center, 
 }  // namespace
 
 void Run::repair(State& state) {
+  trials = 0;
   for (const int rings : kRings) {
     std::set<Center> hopeless;
     bool changed = true;
@@ -60,7 +62,7 @@ void Run::repair(State& state) {
         if (hopeless.count(center) > 0) continue;
         if (std::optional<State> next = best_edit(*this, state, t, rings)) {
           state = *std::move(next);
-          ++report.repairs;
+          ++state.repairs;
           trials = 0;
           changed = true;
           break;
@@ -70,6 +72,7 @@ void Run::repair(State& state) {
       }
     }
   }
+  find_weights(state);
 }
 
 }  // namespace temper::surfaces

@@ -4,7 +4,8 @@
 //   weights   a linear program for all weights
 //   repairs   copies of a few rings around bad triangles: descend again, flip, split or collapse an edge (repair.cpp)
 //
-// Two starts compete: moves alone, with weights at the end; and moves with weights.
+// Two starts compete: moves alone, with weights at the end; and moves with weights. At first the surface must not turn
+// more at its edges than a limit. As long as bad triangles are left, all begins again, with a wider limit and without.
 #pragma once
 
 #include <algorithm>
@@ -31,13 +32,17 @@ struct State {
   IdVector<VertexId, VertexId> origins;          ///< Their numbers in the input
   std::vector<std::array<VertexId, 2>> creases;  ///< Each from its lower vertex; ascending
   std::size_t bad = 0;                           ///< Number of cells at violations
+  std::size_t repairs = 0;                       ///< Number of edits
 };
+
+[[nodiscard]] Turns turns_of(const SurfaceMesh& mesh, double sharp_deg);
 
 struct Run {
   const SurfaceOptions& options;
   const Nearness& nearness;
   LpSolver& solver;
   SurfaceReport& report;
+  TurnLimit limit = {};
   std::size_t trials = 0;  ///< Of repairs, since the last one that helped
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
@@ -50,13 +55,15 @@ struct Run {
     return cells_at_violations(mesh, options.criterion).size();
   }
 
+  /// The better of two starts, or `best` if it is better.
+  [[nodiscard]] State moved(const State& input, State best);
   /// Rounds that move all vertices, with or without their weights.
   void move_all(State& state, bool with_weights);
   /// Weights by descents, and for few bad cells by a linear program, if they leave fewer bad cells.
   void find_weights(State& state) const;
   void take_if_better(State& state, SurfaceMesh changed) const;
   [[nodiscard]] bool may_try() const { return trials < static_cast<std::size_t>(options.repair_trials); }
-  /// Edits next to bad triangles, as long as one helps.
+  /// Edits next to bad triangles, as long as one helps; then weights.
   void repair(State& state);
 };
 

@@ -53,6 +53,14 @@ test::SurfaceArrays shaken_grid(int n, double shake, std::uint64_t seed) {
   return arrays;
 }
 
+/// The same with heights.
+SurfaceMesh rough_grid(int n, double height, std::uint64_t seed) {
+  Rng rng(seed);
+  test::SurfaceArrays arrays = shaken_grid(n, 0.3, seed);
+  for (Vec3& p : arrays.points) p.z = rng.uniform(-height, height);
+  return test::mesh_of(arrays);
+}
+
 double brute_force_distance(const SurfaceMesh& mesh, Vec3 p) {
   double least = std::numeric_limits<double>::infinity();
   for (const TriangleId t : mesh.triangles()) {
@@ -136,6 +144,31 @@ TEST(SurfaceDraft, TheGradientIsThatOfSteps) {
   }
 }
 
+// Two triangles with the common edge from (0, 0, 0) to (0, 1, 0), and one of them has a corner at this height.
+TEST(SurfaceDraft, GoesBackWhereItTurnsTooMuch) {
+  const auto turned = [](double from, double to, TurnLimit limit, double right = 1) {
+    Draft draft;
+    draft.points = IdVector<VertexId, WeightedPoint>(4);
+    draft.points[VertexId(1)].y = 1;
+    draft.points[VertexId(2)] = {-1, 0.5, 0, 0};
+    draft.points[VertexId(3)] = {right, 0.5, from, 0};
+    draft.triangles = {{VertexId(0), VertexId(1), VertexId(2)}, {VertexId(1), VertexId(0), VertexId(3)}};
+    const IdVector<VertexId, WeightedPoint> first = draft.points;
+    draft.points[VertexId(3)].z = to;
+    go_back(draft, first, limit);
+    return draft.points[VertexId(3)].z == to;
+  };
+  // The turn is 45 degrees at the height 1, 55 degrees at 1.43 and 35 degrees at 0.7.
+  EXPECT_TRUE(turned(0.7, 1, {50, 50, 50}));
+  EXPECT_FALSE(turned(0.7, 1.43, {50, 50, 50}));
+  EXPECT_TRUE(turned(0.7, 1.43, {}));
+  EXPECT_FALSE(turned(0.7, 1.43, {50, 60, 50}));
+  EXPECT_TRUE(turned(0.1, 0.7, {50, 90, 50}, 0.4));  // 60 degrees at an angle of 116 degrees
+  EXPECT_FALSE(turned(0.1, 0.7, {50, 50, 90}, 0.4));
+  EXPECT_TRUE(turned(1, 1.43, {40, 40, 56}));
+  EXPECT_FALSE(turned(1, 1.43, {40, 40, 54}));
+}
+
 TEST(SurfaceClosestPoint, IsTheBestOfAllTriangles) {
   const SurfaceMesh mesh = shaken_torus(0.3, 1);
   const ClosestPoints closest(mesh);
@@ -156,15 +189,16 @@ TEST(SurfaceFlips, MakeAPlaneMeshRegularAndKeepACurvedOneWithoutDistance) {
   // A grid has no thin triangles, which keep others from flips.
   SurfaceMesh plane = test::mesh_of(shaken_grid(8, 0.2, 2));
   EXPECT_GT(quality(plane).non_regular_edges, 10U);
-  EXPECT_GT(flip_negative_duals(plane, Nearness(plane, 1e-12)), 10U);
+  EXPECT_GT(flip_negative_duals(plane, Nearness(plane, 1e-12), {}), 10U);
   EXPECT_LE(quality(plane).non_regular_edges, 1U);  // corners of the grid keep three edges
   EXPECT_EQ(plane.validate(), std::nullopt);
 
   SurfaceMesh torus = shaken_torus(0.4, 2);
   const SurfaceMesh input = torus;
-  EXPECT_EQ(flip_negative_duals(torus, Nearness(input, 0)), 0U);
+  EXPECT_EQ(flip_negative_duals(torus, Nearness(input, 0), {}), 0U);
   EXPECT_EQ(torus, input);
-  EXPECT_GT(flip_negative_duals(torus, Nearness(input, 0.1)), 0U);
+  EXPECT_EQ(flip_negative_duals(torus, Nearness(input, 0.1), {0, 0, 0}), 0U);
+  EXPECT_GT(flip_negative_duals(torus, Nearness(input, 0.1), {}), 0U);
 }
 
 TEST(SurfaceOptimize, AGoodMeshStaysBitForBit) {
@@ -215,6 +249,42 @@ TEST(SurfaceOptimize, AnotherUnitOfLengthChangesNothingElse) {
   EXPECT_EQ(a.flips, b.flips);
   ASSERT_EQ(one.n_vertices(), other.n_vertices());
   for (const VertexId v : one.vertices()) ASSERT_EQ(8.0 * one.position(v), other.position(v));
+}
+
+/// The turns at all edges that have two triangles.
+std::vector<double> all_turns(const SurfaceMesh& mesh) {
+  std::vector<double> turns;
+  const Mesh& connectivity = mesh.connectivity();
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!connectivity.is_edge_representative(h) || connectivity.is_boundary(h)) continue;
+    const Vec3 n = normal_at(mesh, Mesh::triangle(h)), m = normal_at(mesh, Mesh::triangle(connectivity.twin(h)));
+    turns.push_back(std::acos(dot(n, m) / (length(n) * length(m))) * 180 / std::numbers::pi);
+  }
+  return turns;
+}
+
+TEST(SurfaceOptimize, NoEdgeTurnsMoreThanTheSharpestOfTheInputAndFewAreSharp) {
+  constexpr double kSharp = 40;
+  SurfaceOptions options;
+  options.crease_angle_deg = kSharp;
+  options.surface_distance = 0.03;
+  std::size_t sharp_before = 0, sharp_after = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    SurfaceMesh mesh = rough_grid(10, 0.2, seed);
+    const std::vector<double> before = all_turns(mesh);
+    const SurfaceReport report = optimized(mesh, options);
+    EXPECT_EQ(report.violations_after, 0U) << seed;
+    const std::vector<double> after = all_turns(mesh);
+    const auto largest = [](const std::vector<double>& turns) { return *std::max_element(turns.begin(), turns.end()); };
+    const auto sharp = [](double turn) { return turn > kSharp; };
+    EXPECT_NEAR(report.turns_before.largest_deg, largest(before), 1e-6);
+    EXPECT_NEAR(report.turns_after.largest_deg, largest(after), 1e-6);
+    EXPECT_EQ(report.turns_before.sharp, std::count_if(before.begin(), before.end(), sharp));
+    EXPECT_EQ(report.turns_after.sharp, std::count_if(after.begin(), after.end(), sharp));
+    EXPECT_LE(report.turns_after.largest_deg, std::max(kSharp, report.turns_before.largest_deg)) << seed;
+    sharp_before += report.turns_before.sharp, sharp_after += report.turns_after.sharp;
+  }
+  EXPECT_LE(sharp_after, sharp_before) << sharp_before << " then " << sharp_after;
 }
 
 TEST(SurfaceOptimize, BoundaryFixedVerticesAndConstrainedEdgesStayInThePlane) {
