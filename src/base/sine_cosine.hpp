@@ -38,11 +38,15 @@ inline SineCosine sine_cosine(double x) {
   return {(quarter & 2) != 0 ? -sine : sine, ((quarter + 1) & 2) != 0 ? -cosine : cosine};
 }
 
+/// The angle in [0, π/2] of a cosine in [0, 1], to 7e-5 of itself: Abramowitz and Stegun, 4.4.45.
+inline double rough_acute_angle(double cosine) {
+  return std::sqrt(1 - cosine) * (1.5707288 + cosine * (-0.2121144 + cosine * (0.0742610 - cosine * 0.0187293)));
+}
+
 /// The angle in [0, π] of this cosine, which is first clamped to [−1, 1]. Its cosine is x to 1e-15.
 inline double arc_cosine(double x) {
   const double t = std::fmin(std::abs(x), 1.0);
-  // Abramowitz and Stegun, 4.4.45, to 7e-5. Newton's iteration squares the error.
-  double angle = std::sqrt(1 - t) * (1.5707288 + t * (-0.2121144 + t * (0.0742610 - t * 0.0187293)));
+  double angle = rough_acute_angle(t);  // Newton's iteration squares the error
   for (int i = 0; i < 2 && angle > 0; ++i) {
     const SineCosine at = sine_cosine(angle);
     angle += (at.cosine - t) / at.sine;

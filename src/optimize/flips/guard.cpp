@@ -19,11 +19,12 @@ constexpr double kLeastDepth = 1;  // [m]: on dry land waves need a speed, too
 /// 1 + cosine of the angle between two edges, across from the third. All lengths are squared.
 double cosine_of(double across, double p, double q) { return 1 + (p + q - across) / (2 * std::sqrt(p * q)); }
 
-/// Says that the ratio of two angles is at least a limit, from their cosines alone, or does not know. An angle x has
-/// 2 s ≤ x ≤ π s, where s is the sine of x/2, and 2 s² = 1 − cos x.
+/// Says that the ratio of two angles is at least a limit, from rough angles, or does not know. The smaller is acute.
 bool is_ratio_surely_at_least(double limit, double cosine, double cosine_of_larger) {
-  constexpr double kRounding = 1e-9, kBound = 4 / (std::numbers::pi * std::numbers::pi);
-  return limit > 0 && kBound * (1 - cosine) >= (1 + kRounding) * limit * limit * (1 - cosine_of_larger);
+  constexpr double kRough = 1e-3;  // more than the errors of both
+  const double acute = rough_acute_angle(std::fmin(std::abs(cosine_of_larger), 1.0));
+  const double larger = cosine_of_larger < 0 ? std::numbers::pi - acute : acute;
+  return limit > 0 && rough_acute_angle(std::fmin(cosine, 1.0)) >= (1 + kRough) * limit * larger;
 }
 
 }  // namespace
