@@ -342,7 +342,7 @@ struct SurfaceOptions {
   double margin = 0.01;  ///< Margin t of the final weights, in (0, 1/2)
   /// Largest distance between input and result, in parts of the diagonal of the bounding box.
   double surface_distance = 0.005;
-  /// Creases are edges whose triangles turn by more than this angle [degrees]. They and their vertices stay; new
+  /// Creases are edges whose triangles turn by more than this angle, from 1° to 180°. They and their vertices stay; new
   /// vertices may split them. A thin triangle that two such edges fold out of the surface has none.
   double crease_angle_deg = 70;
   bool may_flip = true;    ///< Allow flips of edges in space

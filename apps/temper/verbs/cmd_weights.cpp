@@ -40,15 +40,20 @@ std::string option_name(Constraints constraints) {
   return text;
 }
 
-constexpr Choice<WeightGoal> kModes[] = {{"margin", WeightGoal::margin},     {"change", WeightGoal::change},
-                                         {"elastic", WeightGoal::elastic},   {"center", WeightGoal::center},
-                                         {"accuracy", WeightGoal::accuracy}, {"least", WeightGoal::least},
+constexpr Choice<WeightGoal> kModes[] = {{"margin", WeightGoal::margin},
+                                         {"change", WeightGoal::change},
+                                         {"elastic", WeightGoal::elastic},
+                                         {"center", WeightGoal::center},
+                                         {"accuracy", WeightGoal::accuracy, CellKinds::both},
+                                         {"least", WeightGoal::least},
                                          {"fewest", WeightGoal::fewest}};
 enum class From { zero, input };
 constexpr Choice<From> kFrom[] = {{"zero", From::zero}, {"input", From::input}};
 /// The schemes: the targets of optimize that lower an offset, for --mode accuracy, and that have constraints.
-constexpr Choice<Scheme> kSchemes[] = {
-    {"any", Scheme::all}, {"vertex", Scheme::vertex}, {"cell", Scheme::cell}, {"stars", Scheme::stars}};
+constexpr Choice<Scheme> kSchemes[] = {{"any", Scheme::all},
+                                       {"vertex", Scheme::vertex},
+                                       {"cell", Scheme::cell},
+                                       {"stars", Scheme::stars, CellKinds::both}};
 
 enum class Connectivity { fixed, search };
 constexpr Choice<Connectivity> kConnectivities[] = {{"fixed", Connectivity::fixed},

@@ -522,7 +522,7 @@ constexpr OptionRow kSurfaceRows[] = {
     row<kSurfaces, &CurvedSurfaceOptions::crease_angle>(
         "crease_angle",
         "Angle of creases in degrees. Edges whose triangles turn by more than it stay, with their vertices",
-        {.cells = kForSurfaces, .range = from_to(0, 180), .common = true}),
+        {.cells = kForSurfaces, .range = from_to(1, 180), .common = true}),
 };
 
 constexpr OptionGroup kGroups[] = {

@@ -136,7 +136,8 @@ class SurfaceBuilder {
           return input_.triangle_error(ErrorCode::non_manifold_edge, t,
                                        edge_name(g) + " belongs to " + std::to_string(j - i) + " triangles (" +
                                            names_.triangle(s) + " and " + names_.triangle(t) +
-                                           " among them); expected at most 2");
+                                           " among them); expected at most 2. Next: give a sheet of the surface its "
+                                           "own copies of the two points");
         }
         if (j - i == 2) across_[g] = h, across_[h] = g;
       }
@@ -202,7 +203,8 @@ class SurfaceBuilder {
       if (missing[v.index] == 0) continue;
       return input_.point_error(
           ErrorCode::non_manifold_vertex, v.index,
-          "the surface touches itself at " + names_.point(v.index) + ": its triangles are not one fan around it");
+          "the surface touches itself at " + names_.point(v.index) +
+              ": its triangles are not one fan around it. Next: give each fan its own copy of the point");
     }
     return std::nullopt;
   }

@@ -200,6 +200,11 @@ TEST_F(Surfaces, WhatIsNotForThemIsRefusedByName) {
                              "surfaces there are positions, edges, boundary"));
   EXPECT_TRUE(contains(error_of({"optimize", "in.obj", "-o", "out.obj", "--cell-data", "conserve"}),
                        has + "--cell-data conserve is"));
+  EXPECT_TRUE(
+      contains(error_of({"weights", "in.obj", "-o", "out.obj", "--mode", "accuracy"}), has + "--mode accuracy is"));
+  EXPECT_TRUE(contains(error_of({"weights", "in.obj", "-o", "out.obj", "--for", "stars"}), has + "--for stars is"));
+  EXPECT_TRUE(contains(error_of({"optimize", "in.obj", "-o", "out.obj", "--crease-angle", "0"}),
+                       "--crease-angle: 0 is out of range"));
   EXPECT_TRUE(contains(error_of({"errors", "in.obj"}), "temper errors takes triangles and tetrahedra. Next: "));
   make_input();
   EXPECT_TRUE(contains(error_of({"optimize", "in.vtu", "-o", "out.vtu", "--surface-distance", "0.1"}),

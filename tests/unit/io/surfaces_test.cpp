@@ -154,7 +154,10 @@ TEST_F(FilesOfSurfaces, BadFilesAreNamed) {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1.5\n";
   EXPECT_EQ(error_of("m.obj", points + "f 1 2 3\nf 2 1 4\nf 1 2 5\n"),
             "m.obj:8: the edge from point 1 to point 2 belongs to 3 triangles (triangle 1 and triangle 3 among them); "
-            "expected at most 2");
+            "expected at most 2. Next: give a sheet of the surface its own copies of the two points");
+  EXPECT_EQ(error_of("m.obj", points + "f 1 2 3\nf 1 4 5\n"),
+            "m.obj:1: the surface touches itself at point 1: its triangles are not one fan around it. Next: give each "
+            "fan its own copy of the point");
   EXPECT_EQ(error_of("m.obj", points + "f 1 2 3\nf 2 1 9\n"),
             "m.obj:7: triangle 2 uses vertex 9, but the file has 5 vertices, numbered from 1");
   EXPECT_EQ(error_of("m.obj", points + "f 1 2 3\nf 1 5 1\nf 1 4 5\n").substr(0, 34),
