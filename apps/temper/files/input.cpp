@@ -92,11 +92,8 @@ void load(SurfaceInput& input, const ReadingOptions& options) {
   if (!loaded) {
     InputError error = loaded.error();
     if (error.code == ErrorCode::zero_area)
-      error.message += fmt::format(
-          ". Next: delete it if it has one corner twice, else join its corners with temper convert {} --merge RADIUS "
-          "-o "
-          "OUT",
-          input.path);
+      error.message += ". Next: delete it if it has one corner twice, else join its corners with temper convert " +
+                       input.path + " --merge RADIUS -o OUT";
     throw as_failure(error);
   }
   input.loaded = or_fail(std::move(loaded));
