@@ -58,8 +58,8 @@ class Driver : RepairRun {
   }
 
  private:
-  /// Changes places that violate the criterion alone, or the whole mesh if these are many or stay bad. Weights come
-  /// first in any case: their programs are as small as the places.
+  /// Changes places that violate the criterion alone, or the whole mesh if these are many or stay bad. Sweeps come
+  /// first, then programs for weights, which are as small as the places.
   void change_bad_places() {
     many_are_bad_ = are_many(best_bad_, input_.mesh.n_tetrahedra());
     const std::size_t at_start = best_bad_;
@@ -72,9 +72,9 @@ class Driver : RepairRun {
     if (best_bad_ < left) places_left_ = many_are_bad_ ? at_start : left;
   }
 
-  /// Sweeps near bad tetrahedra. They keep the connectivity, and cost less than programs for weights.
+  /// Sweeps near bad tetrahedra. They keep the connectivity. They change less than programs for weights, and cost less.
   bool made_good_nearby() {
-    if (criterion_ != Criterion::well_centered || many_are_bad_) return false;
+    if (many_are_bad_) return false;
     const auto must_stop = [this](double fraction) { return is_stopped(fraction); };
     (void)sweep_near_violations(draft_, {criterion_, guarded_cosine()}, must_stop, hooks_.executor);
     end_round(true);
