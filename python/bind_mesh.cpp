@@ -185,6 +185,10 @@ void set_vertices(PyMesh& self, const Doubles& values, Assigned what) {
   self.replace(std::move(mesh), {});
 }
 
+/// The mesh whose marks will change. Error: erased triangles.
+std::shared_ptr<const Mesh> to_mark(const PyMesh& self) { return self.read(); }
+std::shared_ptr<const Mesh> to_mark(const PySurface& self) { return connectivity_of(self); }
+
 /// Calls f with the mesh for changes.
 template <class F>
 void change(PyMesh& self, const F& f) {
@@ -201,7 +205,7 @@ void change(PySurface& self, const F& f) {
 template <class AnyMesh>
 void set_fixed(AnyMesh& self, const Int64s& vertices) {
   std::vector<VertexId> ids;
-  for (const std::int64_t v : as_span<std::int64_t>(vertices)) ids.push_back(vertex_id(*connectivity_of(self), v));
+  for (const std::int64_t v : as_span<std::int64_t>(vertices)) ids.push_back(vertex_id(*to_mark(self), v));
   change(self, [&](auto& mesh) {
     for (const VertexId v : mesh.vertices()) mesh.set_fixed(v, false);
     for (const VertexId v : ids) mesh.set_fixed(v, true);
@@ -211,7 +215,7 @@ void set_fixed(AnyMesh& self, const Int64s& vertices) {
 template <class AnyMesh>
 void set_constrained(AnyMesh& self, const Int64s& edges, bool constrained) {
   std::vector<HalfedgeId> halfedges;
-  const auto before = connectivity_of(self);
+  const auto before = to_mark(self);
   for (const auto& [a, b] : as_span<std::array<std::int64_t, 2>>(edges)) {
     const VertexId from = vertex_id(*before, a), to = vertex_id(*before, b);
     HalfedgeId h = before->find_halfedge(from, to);

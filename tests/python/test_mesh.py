@@ -262,6 +262,10 @@ def test_data_follow_vertices_that_were_removed_and_inserted(ring, in_scratch):
     topology.remove_vertex(mesh, topology.plan_removal(mesh, victim))
     with pytest.raises(temper.TemperError, match="compact"):
         temper.quality(mesh)
+    with pytest.raises(temper.TemperError, match="compact"):
+        mesh.fixed = [int(mesh.boundary_edges[0, 0])]
+    with pytest.raises(temper.TemperError, match="compact"):
+        mesh.set_constrained(mesh.boundary_edges[:1])
     mesh.compact()
     plan = topology.plan_split(mesh, int(np.flatnonzero(mesh.twins >= 0)[0]), 0.5)
     topology.insert_vertex(mesh, plan)

@@ -43,8 +43,8 @@ std::optional<State> best_edit(Run& run, const State& state, TriangleId center, 
   std::optional<State> next = best->applied();
   if (!next) return std::nullopt;
   next->bad = run.bad(next->mesh);
-  if (turns_of(next->mesh, 0).largest_deg > run.limit.sharpest) return std::nullopt;
-  if (next->bad >= state.bad || !run.nearness.too_far(next->mesh).empty()) return std::nullopt;
+  if (next->bad >= state.bad || turns_of(next->mesh, 0).largest_deg > run.limit.sharpest) return std::nullopt;
+  if (!run.nearness.too_far(next->mesh).empty()) return std::nullopt;
   return next;
 }
 
