@@ -78,7 +78,7 @@ struct WeightedPoint {
 struct MetricTriangle {
   double pq = 0, qr = 0, rp = 0;
   double wp = 0, wq = 0, wr = 0;
-  /// The same triangle, as qrp, and as its mirror image qpr.
+  /// This triangle with its corners as q, r, p, and its mirror image with q, p, r.
   [[nodiscard]] constexpr MetricTriangle turned() const { return {qr, rp, pq, wq, wr, wp}; }
   [[nodiscard]] constexpr MetricTriangle mirrored() const { return {pq, rp, qr, wq, wp, wr}; }
   /// pq·pr, qp·qr and rp·rq.

@@ -658,8 +658,8 @@ _TAKERS = "temper.quality, optimize, find_weights, dec_operators, write and "
 
 
 def triangles_of(mesh: Any, in_place: bool = False, *, curved: bool = True) -> tuple[Any, list[str]]:
-    """The handle of a mesh of triangles of another library, and messages. See ``as_mesh``. ``curved``: it may be that of
-    a curved surface."""
+    """The handle of a mesh of triangles of another library, and messages. See ``as_mesh``. ``curved``: a
+    curved surface is no error."""
     handle = getattr(mesh, "_handle", None)
     if isinstance(handle, _temper.TetMesh):
         raise TypeError(f"expected a mesh of triangles, found a TetMesh. Next: {_TAKERS}measure_errors take it")

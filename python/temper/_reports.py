@@ -495,11 +495,11 @@ class SurfaceOptimizeReport(_looks.SurfaceOptimizeReport):
     sharp_edges_before: int
     """Number of edges that turn more than crease_angle, in the input."""
     sharp_edges_after: int
-    """The same in the result."""
+    """Number of these edges in the result."""
     max_turn_before_deg: float
     """Largest angle between normals of neighbors, in the input [degrees]."""
     max_turn_after_deg: float
-    """The same in the result [degrees]."""
+    """Largest of these angles in the result [degrees]."""
     changed: ChangeCounts | None
     """Changes of the run, with change = least."""
     notes: list[str]

@@ -320,7 +320,7 @@ def expect_no_options_of_triangles(function: Callable[..., Any], **given: Any) -
 
 
 def expect_no_options_of_planes(function: Callable[..., Any], **given: Any) -> None:
-    """The same for options that curved surfaces do not have."""
+    """Raises TypeError if an option is given that curved surfaces do not have."""
     _refuse("not for curved surfaces", function, given)
 
 

@@ -50,7 +50,7 @@ template <class AnyQuality>
 template <class AnyQuality>
 [[nodiscard]] std::string brief_text(const AnyQuality& before, const AnyQuality& after);
 
-/// How much a surface turns at its edges, before and after a run.
+/// Says how much a surface turns at its edges, before and after a run.
 [[nodiscard]] std::string turns_text(const surfaces::Turns& before, const surfaces::Turns& after);
 
 /// "46 of 96 triangles are not well-centered, every edge is regular"

@@ -49,7 +49,7 @@ void add_files(Command& command, DrawSettings& s) {
   add_text(command, "--before", "IN0", s.before, "Second mesh, drawn to the left of IN at the same scale.");
 }
 
-/// What of a mesh is drawn, and from where.
+/// Adds options that choose the parts of a mesh and the view.
 void add_parts(Command& command, DrawSettings& s) {
   add_text(
       command, "--cut", "AXIS[=VALUE]", s.cut,
@@ -72,7 +72,7 @@ void add_parts(Command& command, DrawSettings& s) {
                    "Draw a circle of radius sqrt|w| around each vertex of weight w. It is dashed if w < 0.");
 }
 
-/// What fills triangles and cells.
+/// Adds options that fill triangles and cells.
 void add_colors(Command& command, DrawSettings& s) {
   std::string colors = "none|";
   for (const TriangleValue& value : triangle_values()) colors += std::string(value.name) + "|";

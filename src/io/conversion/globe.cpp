@@ -126,7 +126,7 @@ std::string two_digits(double value) {
 constexpr double kOffOfExtent = 1e-3;  // largest distance from a sphere, over the extent of a part of it
 constexpr double kNearly = 0.01;       // of the extent or radius: then a sphere may be meant, not a surface
 
-/// The first point of a triangle that is so. Precondition: there is one.
+/// Returns the first point of a triangle for which `is` holds. Precondition: there is one.
 template <class Is>
 std::size_t find_used(const std::vector<Vec3>& points, const std::vector<bool>& used, const Is& is) {
   for (std::size_t i = 0;; ++i) {

@@ -44,7 +44,7 @@ struct PlyJoined {
   std::size_t components = 1;
 };
 
-/// What a file declares and holds, before it is a mesh.
+/// The elements and names of a file, before they make a mesh.
 struct PlyContents {
   std::string path;
   bool binary = false;

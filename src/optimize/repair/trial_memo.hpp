@@ -26,7 +26,7 @@ class TrialMemo {
   [[nodiscard]] Results& at(const Neighborhood& around);
 
  private:
-  // A place takes about 5 kB. After so many other places, searches rarely come back.
+  // A place takes about 5 kB. Searches rarely come back to a place after so many others.
   static constexpr std::size_t kMostPlaces = 4096;
 
   std::unordered_map<std::string, Results> places_;

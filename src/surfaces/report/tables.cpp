@@ -67,11 +67,12 @@ const ReportTable& table_of(const SurfaceReport*) {
        {"crease_edges", "Number of edges of creases, which stay", "", &R::crease_edges, "edges of creases"},
        {"sharp_edges_before", "Number of edges that turn more than crease_angle, in the input", "",
         [](const R& r) { return r.turns_before.sharp; }, "edges that turn more than creases, before"},
-       {"sharp_edges_after", "The same in the result", "", [](const R& r) { return r.turns_after.sharp; }, "  after"},
+       {"sharp_edges_after", "Number of these edges in the result", "", [](const R& r) { return r.turns_after.sharp; },
+        "  after"},
        {"max_turn_before_deg", "Largest angle between normals of neighbors, in the input", "degrees",
         [](const R& r) { return r.turns_before.largest_deg; }, "largest turn, before"},
-       {"max_turn_after_deg", "The same in the result", "degrees", [](const R& r) { return r.turns_after.largest_deg; },
-        "  after"}});
+       {"max_turn_after_deg", "Largest of these angles in the result", "degrees",
+        [](const R& r) { return r.turns_after.largest_deg; }, "  after"}});
   return table;
 }
 
