@@ -342,12 +342,15 @@ struct SurfaceOptions {
   double margin = 0.01;  ///< Margin t of the final weights, in (0, 1/2)
   /// Largest distance between input and result, in parts of the diagonal of the bounding box.
   double surface_distance = 0.005;
-  /// Creases are edges whose triangles turn by more than this angle, from 1° to 180°. They and their vertices stay; new
-  /// vertices may split them. A thin triangle that two such edges fold out of the surface has none.
+  /// Creases are edges whose triangles turn by more than this angle, from 1° to 180°. They stay; new vertices
+  /// may split them. A thin triangle that two such edges fold out of the surface has none.
   double crease_angle_deg = 70;
   bool may_flip = true;    ///< Allow flips of edges in space
   bool may_insert = true;  ///< Allow edges to be split and collapsed next to bad triangles
   bool may_move = true;    ///< Allow vertices to move. Else only weights change
+  /// Allow vertices inside of lines to slide along the line of the input. A line is a piece of the boundary, of a
+  /// crease or of constrained edges. Its ends and its bends of more than 40° stay. Else all vertices of lines stay.
+  bool may_slide = false;
   /// Repairs end after this number of edits in a row that do not help. Usually fewer than one edit of 20 helps.
   int repair_trials = 600;
   double time_limit = 0;                 ///< Time limit of the run [s]; 0: none
@@ -383,7 +386,7 @@ struct SurfaceReport : RunReport {
 
 /// Improves a mesh in place until it meets the criterion. Vertices move in their tangent planes and come back to the
 /// input surface. Edges flip in space, and weights follow by linear programs. Vertices on the boundary, on constrained
-/// edges and on creases stay, and so do fixed ones. Errors: an option out of range.
+/// edges and on creases stay or slide there, and fixed ones stay. Errors: an option out of range.
 [[nodiscard]] Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options = {});
 
 }  // namespace temper::surfaces

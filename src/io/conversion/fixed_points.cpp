@@ -167,22 +167,33 @@ std::vector<std::int32_t> fixed_points(const MeshFile& file, const VertexOfPoint
   return fixed;
 }
 
-void fix_ends_of_tags(const MeshFile& file, std::span<const HalfedgeId> edges, Mesh& mesh) {
-  std::vector<std::array<std::uint32_t, 3>> ends;  // vertex, tag and edge of lines on the boundary
+std::vector<VertexId> ends_of_tags(const MeshFile& file, std::span<const HalfedgeId> edges, const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> ends;  // vertex, tag and edge of lines
   for (std::size_t i = 0; i < file.lines.size(); ++i) {
     const HalfedgeId h = edges[i];
-    if (!h.valid() || !mesh.is_boundary(h)) continue;
+    if (!h.valid() || !mesh.is_unflippable(h)) continue;
     for (const VertexId v : {mesh.origin(h), mesh.target(h)})
       ends.push_back({v.index, static_cast<std::uint32_t>(file.lines.tags[i]), h.index});
   }
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<VertexId> vertices;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const auto continues = [&](std::size_t other) {
       return other < ends.size() && ends[other][0] == ends[i][0] && ends[other][1] == ends[i][1];
     };
-    const VertexId v(ends[i][0]);
-    if (!continues(i + 1) && !continues(i - 1) && !is_corner(mesh, v)) mesh.set_fixed(v, true);
+    if (!continues(i + 1) && !continues(i - 1)) vertices.emplace_back(ends[i][0]);
+  }
+  return vertices;
+}
+
+void fix_ends_of_tags(const MeshFile& file, std::span<const HalfedgeId> edges, Mesh& mesh) {
+  std::vector<HalfedgeId> of_boundary(edges.begin(), edges.end());
+  for (HalfedgeId& h : of_boundary) {
+    if (h.valid() && !mesh.is_boundary(h)) h = {};
+  }
+  for (const VertexId v : ends_of_tags(file, of_boundary, mesh)) {
+    if (!is_corner(mesh, v)) mesh.set_fixed(v, true);
   }
 }
 

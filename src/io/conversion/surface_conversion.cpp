@@ -35,6 +35,8 @@ class SurfaceMaker {
     loaded_.edge_lines = std::move(lines.edge_lines);
     for (const HalfedgeId h : lines.constrained) loaded_.mesh.set_constrained(h, true);
     for (std::string& warning : lines.warnings) warn(std::move(warning));
+    for (const VertexId v : ends_of_tags(file_, lines.edges, loaded_.mesh.connectivity()))
+      loaded_.mesh.set_fixed(v, true);
     for (const VertexId v : fixed_marks(file_, vertex, loaded_.mesh.connectivity())) loaded_.mesh.set_fixed(v, true);
     return std::move(loaded_);
   }

@@ -347,11 +347,12 @@ constexpr OptionRow kConnectivityRows[] = {
     row<&Options::boundary>(
         "boundary",
         "Treatment of the boundary. keep: it stays bit for bit. slide: vertices may move along straight pieces; "
-        "vertices of tetrahedra also move in planes. Corners stay. split: cut long edges of the boundary or of "
+        "vertices of tetrahedra also move in planes, and those of curved surfaces along curves and creases. Corners "
+        "stay. split: cut long edges of the boundary or of "
         "interfaces, next to much shorter ones, before the sweeps, and with `repair=vertices` also where triangles "
         "stay bad. In tetrahedra, new vertices are on edges and faces, and only if a tetrahedron stays bad without "
         "them. The old vertices stay bit for bit",
-        {.cells = kBoth, .common = true}),
+        {.cells = kAll, .for_surfaces = "keep|slide", .common = true}),
     row<&Options::boundary_ratio>("boundary_ratio",
                                   "Largest ratio of the lengths of two boundary or interface edges that meet, with "
                                   "`boundary=split`. Longer edges are cut",
@@ -521,7 +522,8 @@ constexpr OptionRow kSurfaceRows[] = {
         {.cells = kForSurfaces, .range = {0, 1}, .common = true}),
     row<kSurfaces, &CurvedSurfaceOptions::crease_angle>(
         "crease_angle",
-        "Angle of creases in degrees. Edges whose triangles turn by more than it stay, with their vertices",
+        "Angle of creases in degrees. Edges whose triangles turn by more than it stay, with their vertices "
+        "unless `boundary=slide`",
         {.cells = kForSurfaces, .range = from_to(1, 180), .common = true}),
 };
 

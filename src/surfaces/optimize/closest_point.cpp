@@ -18,27 +18,38 @@ double squared_distance(const BoundingBox& box, Vec3 p) {
                              outside(p.z, box.low.z, box.high.z)});
 }
 
+std::vector<ClosestPoints::Triangle> triangles_of(const SurfaceMesh& mesh) {
+  std::vector<ClosestPoints::Triangle> triangles;
+  triangles.reserve(mesh.n_triangles());
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.points(t);
+    triangles.push_back({p.position(), q.position(), r.position()});
+  }
+  return triangles;
+}
+
 }  // namespace
 
 Vec3 closest_point(const std::array<Vec3, 3>& triangle, Vec3 p) {
   const auto& [a, b, c] = triangle;
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double bb = squared_length(ab), bc = dot(ab, ac), cc = squared_length(ac), determinant = bb * cc - bc * bc;
+  // No number for a segment.
   const double at_b = (cc * dot(ab, ap) - bc * dot(ac, ap)) / determinant;
   const double at_c = (bb * dot(ac, ap) - bc * dot(ab, ap)) / determinant;
   if (at_b >= 0 && at_c >= 0 && at_b + at_c <= 1) return a + at_b * ab + at_c * ac;
   Vec3 best = on_segment(a, b, p);
+  if (cc == 0) return best;
   for (const Vec3 other : {on_segment(b, c, p), on_segment(c, a, p)}) {
     if (squared_length(other - p) < squared_length(best - p)) best = other;
   }
   return best;
 }
 
-ClosestPoints::ClosestPoints(const SurfaceMesh& mesh) : order_(mesh.n_triangles()) {
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [p, q, r] = mesh.points(t);
-    triangles_.push_back({p.position(), q.position(), r.position()});
-  }
+ClosestPoints::ClosestPoints(const SurfaceMesh& mesh) : ClosestPoints(triangles_of(mesh)) {}
+
+ClosestPoints::ClosestPoints(std::vector<Triangle> triangles)
+    : triangles_(std::move(triangles)), order_(triangles_.size()) {
   std::iota(order_.begin(), order_.end(), 0U);
   if (!order_.empty()) build(0, 0, order_.size());
 }

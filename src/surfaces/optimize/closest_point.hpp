@@ -18,9 +18,14 @@ struct ClosestPoint {
   std::uint32_t triangle = 0;
 };
 
-/// The triangles of a surface in a tree of boxes, each halved by count along its longest side.
+/// Triangles in a tree of boxes, each halved by count along its longest side.
 class ClosestPoints {
  public:
+  using Triangle = std::array<Vec3, 3>;
+
+  ClosestPoints() = default;
+  /// A triangle may be a segment, with its third corner at the first.
+  explicit ClosestPoints(std::vector<Triangle> triangles);
   explicit ClosestPoints(const SurfaceMesh& mesh);
 
   /// Of equally close points always the same. A point within `enough` of p, closest or not, ends the search. O(log n)
@@ -31,7 +36,6 @@ class ClosestPoints {
   }
 
  private:
-  using Triangle = std::array<Vec3, 3>;
   static constexpr std::size_t kLeaf = 4;
 
   [[nodiscard]] BoundingBox box_of(std::size_t first, std::size_t last) const;
@@ -48,7 +52,7 @@ class ClosestPoints {
   std::vector<BoundingBox> boxes_;  ///< Of node i; its halves are 2 i + 1 and 2 i + 2
 };
 
-/// The point of a triangle that is closest to p.
+/// The point of a triangle that is closest to p. The triangle may be a segment, as above.
 [[nodiscard]] Vec3 closest_point(const std::array<Vec3, 3>& triangle, Vec3 p);
 
 }  // namespace temper::surfaces

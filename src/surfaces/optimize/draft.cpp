@@ -118,7 +118,10 @@ DraftEnergy::DraftEnergy(Draft& draft, double gamma)
     const double unit = counts[v] > 0 ? lengths[v] / counts[v] : 1;
     const bool is_flat = !(squared_length(normals[v]) > 0);
     const auto [one, other] = tangents_of(is_flat ? Vec3{0, 0, 1} : normals[v]);
-    tangents_.push_back({unit * one, unit * other});
+    const Track track = draft.tracks[v];
+    const bool slides = track != kFree && track != kHeld;
+    tangents_.push_back(slides ? std::array{unit * draft.lines->direction(track, first_[v].position()), Vec3{}}
+                               : std::array{unit * one, unit * other});
     areas_.push_back(unit * unit);
   }
 }
@@ -127,7 +130,7 @@ void DraftEnergy::place(const std::vector<double>& step, double part) {
   for (std::size_t i = 0; i < start_.size(); ++i) {
     const VertexId v(i);
     WeightedPoint p = start_[v];
-    if (draft_.moves[v] != 0) {
+    if (draft_.tracks[v] != kHeld) {
       const auto& [one, other] = tangents_[v];
       const Vec3 at = p.position() + (part * step[3 * i]) * one + (part * step[3 * i + 1]) * other;
       p.x = at.x, p.y = at.y, p.z = at.z;
@@ -153,7 +156,7 @@ DraftEnergy::Value DraftEnergy::value() const {
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId v = t[k];
       double* const slope = sum.gradient.data() + kUnknowns * v.index;
-      if (draft_.moves[v] != 0) {
+      if (draft_.tracks[v] != kHeld) {
         slope[0] += dot(e.by_corner[k], tangents_[v][0]);
         slope[1] += dot(e.by_corner[k], tangents_[v][1]);
       }
@@ -178,8 +181,9 @@ void DraftEnergy::lower(int steps, const std::function<bool()>& must_stop) {
 
 void DraftEnergy::project(const ClosestPoints& surface, const TurnLimit& limit) {
   for (const VertexId v : IdRange<VertexId>(first_.size())) {
-    if (draft_.moves[v] == 0) continue;
-    const Vec3 at = surface.find(draft_.points[v].position()).at;
+    if (draft_.tracks[v] == kHeld) continue;
+    const Vec3 p = draft_.points[v].position();
+    const Vec3 at = draft_.tracks[v] == kFree ? surface.find(p).at : draft_.lines->closest(draft_.tracks[v], p);
     draft_.points[v] = {at.x, at.y, at.z, draft_.points[v].w};
   }
   go_back(draft_, first_, limit);

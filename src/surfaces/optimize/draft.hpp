@@ -9,6 +9,7 @@
 
 #include "base/descent.hpp"
 #include "surfaces/optimize/closest_point.hpp"
+#include "surfaces/optimize/lines.hpp"
 #include "temper/surfaces.hpp"
 
 namespace temper::surfaces {
@@ -16,10 +17,12 @@ namespace temper::surfaces {
 struct Draft {
   IdVector<VertexId, WeightedPoint> points;
   std::vector<std::array<VertexId, 3>> triangles;
-  IdVector<VertexId, std::uint8_t> moves;   ///< Says whether the position of a vertex may change
-  IdVector<VertexId, std::uint8_t> weighs;  ///< Says whether its weight may
+  IdVector<VertexId, Track> tracks;         ///< Where a vertex may move
+  IdVector<VertexId, std::uint8_t> weighs;  ///< Says whether its weight may change
+  const Lines* lines = nullptr;             ///< For tracks that are lines
 };
 
+[[nodiscard]] inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
 [[nodiscard]] inline Vec3 normal_of(Vec3 a, Vec3 b, Vec3 c) { return cross(b - a, c - a); }
 
 /// Twice the area over the square of the longest side: 0.87 for equilateral triangles.
@@ -48,7 +51,8 @@ struct TurnLimit {
 void go_back(Draft& draft, const IdVector<VertexId, WeightedPoint>& first, const TurnLimit& limit);
 
 /// The sum of the energies of all triangles (barrier.hpp), as Descent needs it. A vertex has three unknowns: two in its
-/// tangent plane, in units of its mean edge, and its weight, in units of the square of that.
+/// tangent plane, in units of its mean edge, and its weight, in units of the square of that. A vertex of a line has one
+/// unknown along it in place of two.
 class DraftEnergy {
  public:
   static constexpr std::size_t kUnknowns = 3;
@@ -71,7 +75,8 @@ class DraftEnergy {
 
   /// Lowers the energy. `steps`: the most.
   void lower(int steps, const std::function<bool()>& must_stop);
-  /// Takes moved vertices to the closest points of a surface, or back to where they were at first (go_back).
+  /// Takes moved vertices to the closest points of a surface, or of their lines, or back to where they were at first
+  /// (go_back).
   void project(const ClosestPoints& surface, const TurnLimit& limit);
 
  private:

@@ -22,8 +22,6 @@ std::size_t degree(const Mesh& mesh, VertexId v) {
   return n;
 }
 
-Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
-
 double dual_of(const SurfaceMesh& mesh, const inlined::Quad& q) {
   return dual_over_length(mesh.point(q.a), mesh.point(q.b), mesh.point(q.c), mesh.point(q.d));
 }

@@ -73,18 +73,6 @@ std::vector<HalfedgeId> creases_of(const SurfaceMesh& mesh, double angle_deg) {
   return creases;
 }
 
-IdVector<VertexId, std::uint8_t> held_vertices(const SurfaceMesh& mesh) {
-  const Mesh& connectivity = mesh.connectivity();
-  IdVector<VertexId, std::uint8_t> holds(mesh.n_vertices(), 0);
-  for (const HalfedgeId h : mesh.halfedges()) {
-    if (connectivity.is_unflippable(h)) holds[connectivity.origin(h)] = holds[connectivity.target(h)] = 1;
-  }
-  for (const VertexId v : mesh.vertices()) {
-    if (connectivity.is_fixed(v)) holds[v] = 1;
-  }
-  return holds;
-}
-
 /// Gives a mesh the points of a draft, whose vertices go back to their first places until all is near the input. False
 /// if that is not enough.
 bool take(SurfaceMesh& mesh, Draft& draft, const IdVector<VertexId, WeightedPoint>& first, const Run& run) {
@@ -102,21 +90,28 @@ bool take(SurfaceMesh& mesh, Draft& draft, const IdVector<VertexId, WeightedPoin
   return false;
 }
 
-/// All of a mesh. Vertices that `holds` marks keep their places.
-Draft draft_of(const SurfaceMesh& mesh, const IdVector<VertexId, std::uint8_t>& holds, bool with_weights) {
+/// All of a mesh.
+Draft draft_of(const SurfaceMesh& mesh, const IdVector<VertexId, Track>& tracks, const Lines* lines,
+               bool with_weights) {
   Draft draft;
+  draft.tracks = tracks;
+  draft.lines = lines;
   for (const VertexId v : mesh.vertices()) {
     draft.points.push_back(mesh.point(v));
-    draft.moves.push_back(holds[v] != 0 ? 0 : 1);
     draft.weighs.push_back(with_weights && !mesh.connectivity().is_frozen(v) ? 1 : 0);
   }
   for (const TriangleId t : mesh.triangles()) draft.triangles.push_back(mesh.connectivity().corners(t));
   return draft;
 }
 
-/// The energy of a mesh whose vertices may move and change their weights.
+/// All of a mesh, whose weights alone change.
+Draft weights_of(const SurfaceMesh& mesh) {
+  return draft_of(mesh, IdVector<VertexId, Track>(mesh.n_vertices(), kHeld), nullptr, true);
+}
+
+/// The energy of a mesh.
 double energy_of(const SurfaceMesh& mesh, double gamma) {
-  Draft draft = draft_of(mesh, IdVector<VertexId, std::uint8_t>(mesh.n_vertices(), 0), true);
+  Draft draft = weights_of(mesh);
   return DraftEnergy(draft, gamma).value().lowered;
 }
 
@@ -142,6 +137,7 @@ Expected<SurfaceOptions> surface_options(const OptimizeOptions& options) {
   made.crease_angle_deg = options.surfaces.crease_angle;
   made.may_move = options.unknowns != Unknowns::weights;
   made.may_flip = made.may_insert = options.flips != Flips::none;
+  made.may_slide = options.boundary == BoundaryVertices::slide;
   made.repair_trials = options.repair_trials / kEditsPerTrial;
   made.time_limit = options.time_limit;
   return made;
@@ -171,7 +167,7 @@ void Run::move_all(State& state, bool with_weights) {
   double gamma = kFirstGamma;
   for (int round = 0; round < kRounds && best.bad > 0 && !must_stop(); ++round) {
     const SurfaceMesh before = state.mesh;
-    Draft draft = draft_of(before, state.holds, with_weights);
+    Draft draft = draft_of(before, state.tracks, state.lines, with_weights);
     const IdVector<VertexId, WeightedPoint> first = draft.points;
     DraftEnergy energy(draft, gamma);
     energy.lower(kSteps, [this] { return must_stop(); });
@@ -208,8 +204,22 @@ State Run::moved(const State& input, State best) {
   return best;
 }
 
+State Run::best_of_limits(const State& input, State best, TurnLimit first) {
+  const State weighted = best;
+  TurnLimit second = first;
+  second.at_bad += kMoreAtBad;
+  for (const TurnLimit& next : {first, second, TurnLimit()}) {
+    if (best.bad == 0 || !options.may_move || must_stop()) break;
+    limit = next;
+    State found = moved(input, weighted);
+    if (limit.at_bad > first.at_bad && options.may_insert) repair(found);
+    if (found.bad < best.bad) best = std::move(found);
+  }
+  return best;
+}
+
 void Run::find_weights(State& state) const {
-  Draft draft = draft_of(state.mesh, IdVector<VertexId, std::uint8_t>(state.mesh.n_vertices(), 1), true);
+  Draft draft = weights_of(state.mesh);
   for (double gamma = kFirstGamma; gamma > kLastGamma && state.bad > 0 && !must_stop(); gamma *= kSteepGamma) {
     DraftEnergy(draft, gamma).lower(kSteps, [this] { return must_stop(); });
     SurfaceMesh changed = state.mesh;
@@ -248,7 +258,7 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
   Run run{options, nearness, solver, report};
   run.start = options.started.value_or(begin);
 
-  State input{mesh, {}, {}, {}, run.bad(mesh)};
+  State input{mesh, nullptr, {}, {}, {}, run.bad(mesh)};
   Mesh& connectivity = SurfaceEditor(input.mesh).connectivity();
   for (const HalfedgeId h : creases_of(mesh, options.crease_angle_deg)) {
     input.creases.push_back(ascending(mesh.connectivity().origin(h), mesh.connectivity().target(h)));
@@ -256,7 +266,9 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
   }
   std::sort(input.creases.begin(), input.creases.end());
   report.crease_edges = input.creases.size();
-  input.holds = held_vertices(input.mesh);
+  const Lines lines(input.mesh, input.creases, options.may_slide);
+  input.lines = &lines;
+  input.tracks = lines.tracks();
   for (const VertexId v : mesh.vertices()) input.origins.push_back(v);
 
   report.objective = Objective::energy;
@@ -267,14 +279,12 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
   run.find_weights(weighted);
   const double sharp = options.crease_angle_deg;
   const Turns turns = turns_of(mesh, sharp);
-  const double most = std::max(sharp, turns.largest_deg);
-  State best = weighted;
-  for (const TurnLimit& limit : {TurnLimit{sharp, sharp, most}, {sharp, sharp + kMoreAtBad, most}, {}}) {
-    if (best.bad == 0 || !options.may_move || run.must_stop()) break;
-    run.limit = limit;
-    State found = run.moved(input, weighted);
-    if (limit.at_bad > sharp && options.may_insert) run.repair(found);
-    if (found.bad < best.bad) best = std::move(found);
+  const TurnLimit first = {sharp, sharp, std::max(sharp, turns.largest_deg)};
+  State best = run.best_of_limits(input, weighted, first);
+  if (best.bad > 0 && options.may_slide) {
+    for (Track& track : input.tracks) track = track == kFree ? kFree : kHeld;
+    State held = run.best_of_limits(input, weighted, first);
+    if (held.bad < best.bad) best = std::move(held);
   }
   Mesh& result = SurfaceEditor(best.mesh).connectivity();
   for (const auto& [a, b] : best.creases) result.set_constrained(result.find_halfedge(a, b), false);

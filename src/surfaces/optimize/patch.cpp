@@ -39,7 +39,7 @@ struct Arrays {
   }
 };
 
-bool is_in(const std::vector<std::array<VertexId, 2>>& edges, const std::array<VertexId, 2>& edge) {
+bool is_in(const Edges& edges, const std::array<VertexId, 2>& edge) {
   return std::binary_search(edges.begin(), edges.end(), edge);
 }
 
@@ -48,6 +48,7 @@ std::int32_t number(VertexId v) { return static_cast<std::int32_t>(v.index); }
 }  // namespace
 
 Patch::Patch(const State& state, TriangleId center, int rings) : state_(state) {
+  draft_.lines = state.lines;
   const Mesh& mesh = state.mesh.connectivity();
   const auto corners = mesh.corners(center);
   std::vector<VertexId> vertices(corners.begin(), corners.end());
@@ -87,7 +88,7 @@ Patch::Patch(const State& state, TriangleId center, int rings) : state_(state) {
     for (const HalfedgeId h : mesh.star(v))
       is_inside = is_inside && std::binary_search(cells_.begin(), cells_.end(), Mesh::triangle(h));
     draft_.points.push_back(state.mesh.point(v));
-    draft_.moves.push_back(is_inside && state.holds[v] == 0 ? 1 : 0);
+    draft_.tracks.push_back(is_inside ? state.tracks[v] : kHeld);
     draft_.weighs.push_back(is_inside && !mesh.is_frozen(v) ? 1 : 0);
   }
 }
@@ -106,7 +107,7 @@ bool Patch::has_edge(VertexId a, VertexId b) const {
   if (side(a, b) || side(b, a)) return true;
   const VertexId p = global_[a.index], q = global_[b.index];
   const Mesh& mesh = state_.mesh.connectivity();
-  return p.valid() && q.valid() && draft_.moves[a] == 0 && draft_.moves[b] == 0 &&
+  return p.valid() && q.valid() && draft_.tracks[a] == kHeld && draft_.tracks[b] == kHeld &&
          (mesh.find_halfedge(p, q).valid() || mesh.find_halfedge(q, p).valid());
 }
 
@@ -184,9 +185,11 @@ bool Patch::split(VertexId a, VertexId b, const Nearness& nearness) {
   const Vec3 ab = place(b) - place(a);
   const double l2 = squared_length(ab);
   const double part = cut_ ? std::clamp(dot(place(c) - place(a), ab) / l2, kLeastPart, 1 - kLeastPart) : 0.5;
-  const Vec3 at = nearness.input().find(place(a) + part * ab).at;
+  const Track track = cut_ ? std::max(track_of(a), track_of(b)) : kFree;
+  const Vec3 near = place(a) + part * ab;
+  const Vec3 at = track >= 0 ? state_.lines->closest(track, near) : nearness.input().find(near).at;
   draft_.points.push_back({at.x, at.y, at.z, split_weight(draft_.points[a].w, draft_.points[b].w, l2, part)});
-  draft_.moves.push_back(cut_ ? 0 : 1);
+  draft_.tracks.push_back(track);
   draft_.weighs.push_back(1);
   global_.emplace_back();
   draft_.triangles[left->triangle] = {a, m, c};
@@ -200,7 +203,7 @@ bool Patch::split(VertexId a, VertexId b, const Nearness& nearness) {
 
 bool Patch::collapse(VertexId a, VertexId b) {
   const auto left = side(a, b), right = side(b, a);
-  if (!left || !right || draft_.moves[a] == 0 || is_locked(a, b)) return false;
+  if (!left || !right || draft_.tracks[a] != kFree || is_locked(a, b)) return false;
   const std::vector<VertexId> of_a = neighbors(a);
   const auto is_common = [&](VertexId v) { return v != a && v != b && has_edge(v, b); };
   if (std::count_if(of_a.begin(), of_a.end(), is_common) != 2) return false;
@@ -228,10 +231,10 @@ void Patch::descend(const Run& run) {
     energy.project(run.nearness.input(), {});
   }
   // Projections lower margins, so the weights alone follow.
-  const auto moves = std::exchange(draft_.moves, IdVector<VertexId, std::uint8_t>(draft_.moves.size(), 0));
+  const auto tracks = std::exchange(draft_.tracks, IdVector<VertexId, Track>(draft_.tracks.size(), kHeld));
   for (const double gamma : kGammas)
     DraftEnergy(draft_, gamma).lower(kStepsOfPatch, [&run] { return run.must_stop(); });
-  draft_.moves = moves;
+  draft_.tracks = tracks;
 }
 
 std::optional<std::size_t> Patch::bad(const Run& run) const {
@@ -257,8 +260,8 @@ std::optional<std::size_t> Patch::bad(const Run& run) const {
   return run.bad(*mesh);
 }
 
-std::vector<std::array<VertexId, 2>> Patch::creases(const std::vector<VertexId>& number_of_local) const {
-  std::vector<std::array<VertexId, 2>> all = state_.creases;
+Edges Patch::creases(const std::vector<VertexId>& number_of_local) const {
+  Edges all = state_.creases;
   if (!cut_) return all;
   const auto in_mesh = [&](std::size_t k) { return number_of_local[(*cut_)[k].index]; };
   all.erase(std::find(all.begin(), all.end(), ascending(in_mesh(0), in_mesh(1))));
@@ -296,12 +299,13 @@ std::optional<State> Patch::applied() const {
     for (const VertexId v : t) kept[v] = v;
   }
   State next;
+  next.lines = state_.lines;
   for (const VertexId v : IdRange<VertexId>(points.size())) {
     if (!kept[v].valid()) continue;
     kept[v] = VertexId(arrays.points.size());
     arrays.add(points[v]);
     const bool is_new = v.index >= old.n_vertices();
-    next.holds.push_back(is_new ? (cut_ ? 1 : 0) : state_.holds[v]);
+    next.tracks.push_back(is_new ? draft_.tracks[VertexId(global_.size() - 1)] : state_.tracks[v]);
     next.origins.push_back(is_new ? VertexId() : state_.origins[v]);
     if (!is_new && old.is_fixed(v)) arrays.fixed.push_back(number(kept[v]));
   }

@@ -48,11 +48,12 @@ class Patch {
   };
   [[nodiscard]] std::optional<Side> side(VertexId a, VertexId b) const;
   [[nodiscard]] bool has_edge(VertexId a, VertexId b) const;
+  [[nodiscard]] Track track_of(VertexId old) const { return state_.tracks[global_[old.index]]; }
   [[nodiscard]] bool is_locked(VertexId a, VertexId b) const;
   [[nodiscard]] bool is_crease(VertexId a, VertexId b) const;
   [[nodiscard]] std::vector<VertexId> neighbors(VertexId v) const;
   /// The creases of the mesh with this patch, before its vertices are numbered again.
-  [[nodiscard]] std::vector<std::array<VertexId, 2>> creases(const std::vector<VertexId>& number_of_local) const;
+  [[nodiscard]] Edges creases(const std::vector<VertexId>& number_of_local) const;
   [[nodiscard]] bool flip(VertexId a, VertexId b);
   [[nodiscard]] bool split(VertexId a, VertexId b, const Nearness& nearness);
   [[nodiscard]] bool collapse(VertexId a, VertexId b);
@@ -60,10 +61,10 @@ class Patch {
   std::vector<TriangleId> cells_;
   Corners center_;
   Draft draft_;
-  std::vector<std::int32_t> regions_;                 ///< Of the triangles
-  std::vector<VertexId> global_;                      ///< Numbers in the mesh; invalid for new vertices
-  std::vector<std::array<VertexId, 2>> constrained_;  ///< Edges with creases, each from its lower vertex
-  std::optional<std::array<VertexId, 3>> cut_;        ///< A crease edge that was split: its ends, and the new vertex
+  std::vector<std::int32_t> regions_;           ///< Of the triangles
+  std::vector<VertexId> global_;                ///< Numbers in the mesh; invalid for new vertices
+  Edges constrained_;                           ///< Edges with creases; ascending
+  std::optional<std::array<VertexId, 3>> cut_;  ///< A crease edge that was split: its ends, and the new vertex
   const State& state_;
 };
 

@@ -6,6 +6,7 @@
 //
 // Two starts compete: moves alone, with weights at the end; and moves with weights. At first the surface must not turn
 // more at its edges than a limit. As long as bad triangles are left, all begins again, with a wider limit and without.
+// At last all begins again for vertices that do not slide.
 #pragma once
 
 #include <algorithm>
@@ -21,18 +22,15 @@
 
 namespace temper::surfaces {
 
-[[nodiscard]] inline std::array<VertexId, 2> ascending(VertexId a, VertexId b) {
-  return {std::min(a, b), std::max(a, b)};
-}
-
 /// A mesh of a run with its counts.
 struct State {
   SurfaceMesh mesh;
-  IdVector<VertexId, std::uint8_t> holds;        ///< Vertices that must stay at their places
-  IdVector<VertexId, VertexId> origins;          ///< Their numbers in the input
-  std::vector<std::array<VertexId, 2>> creases;  ///< Each from its lower vertex; ascending
-  std::size_t bad = 0;                           ///< Number of cells at violations
-  std::size_t repairs = 0;                       ///< Number of edits
+  const Lines* lines = nullptr;
+  IdVector<VertexId, Track> tracks;
+  IdVector<VertexId, VertexId> origins;  ///< Numbers of vertices in the input
+  Edges creases;                         ///< Ascending
+  std::size_t bad = 0;                   ///< Number of cells at violations
+  std::size_t repairs = 0;               ///< Number of edits
 };
 
 [[nodiscard]] Turns turns_of(const SurfaceMesh& mesh, double sharp_deg);
@@ -55,6 +53,8 @@ struct Run {
     return cells_at_violations(mesh, options.criterion).size();
   }
 
+  /// The best of runs with wider and wider limits, or `best` if it is better.
+  [[nodiscard]] State best_of_limits(const State& input, State best, TurnLimit first);
   /// The better of two starts, or `best` if it is better.
   [[nodiscard]] State moved(const State& input, State best);
   /// Rounds that move all vertices, with or without their weights.

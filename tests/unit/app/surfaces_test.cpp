@@ -94,6 +94,39 @@ TEST_F(Surfaces, OptionsHaveTheirEffect) {
   }
 }
 
+TEST_F(Surfaces, VerticesOfTheBoundarySlideIfAsked) {
+  // Half of the torus: 132 points. Its boundary has two circles of twelve points.
+  std::string half;
+  std::istringstream lines(torus(20, 12));
+  int n = 0;
+  for (std::string line; std::getline(lines, line);) {
+    int a = 0, b = 0, c = 0;
+    const bool is_face = std::sscanf(line.c_str(), "f %d %d %d", &a, &b, &c) == 3;
+    if ((is_face ? std::max({a, b, c}) : ++n) <= 132) half += line + '\n';
+  }
+  write("half.obj", half);
+  const auto points = [](const std::string& file) {
+    std::istringstream in(read(file));
+    std::vector<std::array<double, 3>> all;
+    for (std::string line; std::getline(in, line);) {
+      std::array<double, 3> p = {};
+      if (std::sscanf(line.c_str(), "v %lf %lf %lf", &p[0], &p[1], &p[2]) == 3) all.push_back(p);
+    }
+    return all;
+  };
+  const auto moved = [&](const std::string& how) {
+    temper_ok({"optimize", "half.obj", "-o", "out.obj", "--boundary", how, "--surface-distance", "0.02", "--quiet"});
+    const auto before = points("half.obj"), after = points("out.obj");
+    int count = 0;
+    for (const std::size_t first : {0, 120}) {
+      for (std::size_t i = first; i < first + 12; ++i) count += before[i] != after[i] ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(moved("keep"), 0);
+  EXPECT_GT(moved("slide"), 10);
+}
+
 TEST_F(Surfaces, HaveWeightsWithProofs) {
   make_torus();
   temper_ok({"optimize", "in.obj", "-o", "good.vtu", "--quiet", "--surface-distance", "0.02"});
@@ -193,8 +226,8 @@ TEST_F(Surfaces, WhatIsNotForThemIsRefusedByName) {
   const std::string has = "in.obj has a curved surface, and ";
   EXPECT_TRUE(contains(error_of({"check", "in.obj", "--tensor", "1,0,1"}),
                        has + "--tensor is for triangles and tetrahedra alone. Next: leave it out"));
-  EXPECT_TRUE(
-      contains(error_of({"optimize", "in.obj", "-o", "out.obj", "--boundary", "slide"}), has + "--boundary is"));
+  EXPECT_TRUE(contains(error_of({"optimize", "in.obj", "-o", "out.obj", "--boundary", "split"}),
+                       has + "--boundary split is for triangles and tetrahedra alone"));
   EXPECT_TRUE(contains(error_of({"optimize", "in.obj", "-o", "out.obj", "--keep", "weights"}),
                        has + "keep 'weights' is for triangles and tetrahedra alone. Next: leave it out; for curved "
                              "surfaces there are positions, edges, boundary"));

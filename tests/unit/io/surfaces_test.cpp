@@ -107,6 +107,21 @@ TEST_F(FilesOfSurfaces, LinesAndMarksConstrainTheMesh) {
   EXPECT_EQ(refused.error().code, ErrorCode::not_planar);
 }
 
+TEST_F(FilesOfSurfaces, PointsWhereTagsOfLinesEndOrChangeAreFixed) {
+  MeshFile file = surface_sample();
+  file.lines = {};
+  file.marked_points = {};
+  const auto ring = [](std::int32_t i) { return 8 * i + 5; };  // far from the other region
+  for (const auto& [from, tag] : std::vector<std::array<std::int32_t, 2>>{{6, 1}, {7, 1}, {8, 2}, {9, 2}})
+    file.lines.add({ring(from), ring(from + 1)}, tag);
+  const auto loaded = make_surface(file);
+  ASSERT_TRUE(loaded) << loaded.error().what();
+  for (std::int32_t i = 0; i < 12; ++i) {
+    const VertexId v(static_cast<std::size_t>(ring(i)));
+    EXPECT_EQ(loaded->mesh.connectivity().is_fixed(v), i == 6 || i == 8 || i == 10) << i;
+  }
+}
+
 TEST_F(FilesOfSurfaces, TextAndBinaryStlGiveTheSameMesh) {
   const test::SurfaceArrays torus = test::torus(9, 7);
   std::string text = "solid thing\n", binary(80, 'x');

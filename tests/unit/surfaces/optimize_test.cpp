@@ -116,7 +116,7 @@ TEST(SurfaceDraft, TheGradientIsThatOfSteps) {
   Draft draft;
   for (const VertexId v : mesh.vertices()) {
     draft.points.push_back(mesh.point(v));
-    draft.moves.push_back(v.index % 3 == 0 ? 0 : 1);
+    draft.tracks.push_back(v.index % 3 == 0 ? kHeld : kFree);
     draft.weighs.push_back(v.index % 4 == 0 ? 0 : 1);
   }
   for (const TriangleId t : mesh.triangles()) draft.triangles.push_back(mesh.connectivity().corners(t));
@@ -139,7 +139,7 @@ TEST(SurfaceDraft, TheGradientIsThatOfSteps) {
   energy.lower(10, [] { return false; });
   EXPECT_LT(energy.value().lowered, first - 1);
   for (const VertexId v : mesh.vertices()) {
-    EXPECT_TRUE(draft.moves[v] != 0 || draft.points[v].position() == points[v].position());
+    EXPECT_TRUE(draft.tracks[v] != kHeld || draft.points[v].position() == points[v].position());
     EXPECT_TRUE(draft.weighs[v] != 0 || draft.points[v].w == points[v].w);
   }
 }
@@ -337,12 +337,12 @@ TEST(SurfacePatch, EditsKeepTheSurfaceAndItsFlags) {
   const std::vector<std::int32_t> fixed = {arrays.triangles[8][0], arrays.triangles[9][1]};
   in.fixed_vertices = fixed;
   const auto id = [](std::int32_t v) { return VertexId(static_cast<std::size_t>(v)); };
-  State state{SurfaceMesh::build(in)->mesh, {}, {}, {ascending(id(crease[0]), id(crease[1]))}, 0};
+  State state{SurfaceMesh::build(in)->mesh, nullptr, {}, {}, {ascending(id(crease[0]), id(crease[1]))}, 0};
   for (const VertexId v : state.mesh.vertices()) {
     const Mesh& mesh = state.mesh.connectivity();
     bool is_end = false;
     for (const auto& [a, b] : arrays.constrained) is_end = is_end || v == id(a) || v == id(b);
-    state.holds.push_back(is_end || mesh.is_fixed(v) ? 1 : 0);
+    state.tracks.push_back(is_end || mesh.is_fixed(v) ? kHeld : kFree);
     state.origins.push_back(v);
   }
   const Nearness nearness(state.mesh, 1);
@@ -370,8 +370,8 @@ TEST(SurfacePatch, EditsKeepTheSurfaceAndItsFlags) {
       for (const VertexId v : mesh.vertices()) {
         const VertexId old = next->origins[v];
         n_fixed += mesh.is_fixed(v) ? 1 : 0;
-        n_held += next->holds[v];
-        if (next->holds[v] == 0) continue;
+        if (next->tracks[v] != kHeld) continue;
+        ++n_held;
         const Vec3 p = next->mesh.position(v), a = state.mesh.position(id(crease[0]));
         const Vec3 along = state.mesh.position(id(crease[1])) - a;
         EXPECT_TRUE(old.valid() ? p == state.mesh.position(old) : length(cross(p - a, along)) < 1e-15);
@@ -391,8 +391,9 @@ TEST(SurfacePatch, EditsKeepTheSurfaceAndItsFlags) {
   for (const Edit::Kind kind : {Edit::Kind::flip, Edit::Kind::split, Edit::Kind::collapse}) EXPECT_GT(made[kind], 5);
 }
 
-/// The surface of a cube of n³ cells. Points inside of its faces are shaken.
-test::SurfaceArrays shaken_cube(int n, double shake, std::uint64_t seed) {
+/// The surface of a box of cubes, n along each axis. Points inside of its faces are shaken, and points inside of its
+/// edges along them.
+test::SurfaceArrays shaken_box(std::array<int, 3> n, double shake, std::uint64_t seed, double along = 0) {
   Rng rng(seed);
   test::SurfaceArrays arrays;
   std::map<std::array<int, 3>, std::int32_t> numbers;
@@ -400,18 +401,17 @@ test::SurfaceArrays shaken_cube(int n, double shake, std::uint64_t seed) {
     const auto [found, is_new] = numbers.try_emplace(at, static_cast<std::int32_t>(arrays.points.size()));
     if (is_new) {
       std::array<double, 3> x;
-      const auto is_outer = [n](int i) { return i == 0 || i == n; };
-      const bool is_inside = is_outer(at[0]) + is_outer(at[1]) + is_outer(at[2]) == 1;
-      for (std::size_t k = 0; k < 3; ++k)
-        x[k] = at[k] + (is_inside && !is_outer(at[k]) ? rng.uniform(-shake, shake) : 0);
+      const auto is_outer = [&](std::size_t k) { return at[k] == 0 || at[k] == n[k]; };
+      const double most = is_outer(0) + is_outer(1) + is_outer(2) == 1 ? shake : along;
+      for (std::size_t k = 0; k < 3; ++k) x[k] = at[k] + (is_outer(k) || most == 0 ? 0 : rng.uniform(-most, most));
       arrays.points.push_back({x[0], x[1], x[2]});
     }
     return found->second;
   };
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const int side : {0, n}) {
-      for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
+    for (const int side : {0, n[axis]}) {
+      for (int i = 0; i < n[(axis + 1) % 3]; ++i) {
+        for (int j = 0; j < n[(axis + 2) % 3]; ++j) {
           const auto corner = [&](int u, int v) {
             std::array<int, 3> at = {};
             at[axis] = side, at[(axis + 1) % 3] = i + u, at[(axis + 2) % 3] = j + v;
@@ -427,7 +427,7 @@ test::SurfaceArrays shaken_cube(int n, double shake, std::uint64_t seed) {
 }
 
 TEST(SurfaceOptimize, CreasesStay) {
-  SurfaceMesh mesh = test::mesh_of(shaken_cube(5, 0.25, 3));
+  SurfaceMesh mesh = test::mesh_of(shaken_box({5, 5, 5}, 0.25, 3));
   const SurfaceMesh input = mesh;
   const SurfaceReport report = optimized(mesh);
   EXPECT_EQ(report.crease_edges, 60U);
@@ -447,6 +447,179 @@ TEST(SurfaceOptimize, CreasesStay) {
     ++creases;
   }
   EXPECT_EQ(creases, 56U);  // 8 corners and 4 points on each of 12 edges
+}
+
+/// An open cylinder of radius 1 whose points are shaken on it, at its ends around it.
+test::SurfaceArrays shaken_cylinder(int n, int m, double shake, std::uint64_t seed) {
+  Rng rng(seed);
+  test::SurfaceArrays arrays;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j <= m; ++j) {
+      const double turn = 2 * std::numbers::pi * (i + rng.uniform(-shake, shake)) / n;
+      const double up = j + (j == 0 || j == m ? 0 : rng.uniform(-shake, shake));
+      arrays.points.push_back({std::cos(turn), std::sin(turn), 2 * std::numbers::pi / n * up});
+      if (j == m) continue;
+      const int a = i * (m + 1) + j, b = (i + 1) % n * (m + 1) + j;
+      arrays.triangles.insert(arrays.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+    }
+  }
+  return arrays;
+}
+
+/// The number of vertices of the input on edges of its boundary, of creases and constrained ones that have moved.
+std::size_t n_moved(const SurfaceMesh& input, const SurfaceMesh& mesh, const SurfaceReport& report,
+                    const std::function<bool(Vec3)>& is_on_line) {
+  std::size_t moved = 0;
+  for (const VertexId v : mesh.vertices()) {
+    const VertexId old = report.vertices.empty() ? v : report.vertices[v];
+    moved += old.valid() && is_on_line(input.position(old)) && mesh.position(v) != input.position(old) ? 1 : 0;
+  }
+  return moved;
+}
+
+TEST(SurfaceSlide, VerticesOfCreasesStayOnTheEdgesOfABox) {
+  constexpr int kLong = 12;  // of a bar: all points are on its edges
+  const SurfaceMesh input = test::mesh_of(shaken_box({kLong, 1, 1}, 0, 4, 0.45));
+  const auto is_end = [](Vec3 p) { return p.x == 0 || p.x == kLong; };
+  std::size_t left[2] = {};
+  for (const bool may_slide : {false, true}) {
+    SurfaceMesh mesh = input;
+    SurfaceOptions options;
+    options.may_slide = may_slide;
+    options.may_flip = options.may_insert = false;
+    const SurfaceReport report = optimized(mesh, options);
+    EXPECT_EQ(report.crease_edges, 4U * (kLong + 2));
+    left[may_slide ? 1 : 0] = report.violations_after;
+    EXPECT_EQ(n_moved(input, mesh, report, [&](Vec3 p) { return !is_end(p); }) > kLong, may_slide);
+    for (const VertexId v : mesh.vertices()) {
+      const Vec3 p = mesh.position(v), q = input.position(v);
+      EXPECT_TRUE(p.y == q.y && p.z == q.z && (p == q || (may_slide && !is_end(q)))) << v.index;
+    }
+  }
+  EXPECT_EQ(left[1], 0U);
+  EXPECT_GT(left[0], 0U);
+}
+
+TEST(SurfaceSlide, VerticesOfTheBoundaryStayOnItsCurveInTheirOrder) {
+  constexpr int kAround = 24, kUp = 6;
+  const SurfaceMesh input = test::mesh_of(shaken_cylinder(kAround, kUp, 0.3, 2));
+  SurfaceMesh mesh = input;
+  SurfaceOptions options;
+  options.may_slide = true;
+  options.surface_distance = 0.01;
+  const SurfaceReport report = optimized(mesh, options);
+  EXPECT_EQ(report.violations_after, 0U);
+  EXPECT_LE(report.surface_distance, 0.01 * report.diagonal);
+  ASSERT_TRUE(report.vertices.empty() || report.repairs > 0);
+  const auto is_end = [](Vec3 p) { return p.z == 0 || p.z > 6.2 / kAround * kUp; };
+  EXPECT_GT(n_moved(input, mesh, report, is_end), 20U);
+  for (const VertexId v : mesh.vertices()) {
+    const VertexId old = report.vertices.empty() ? v : report.vertices[v];
+    if (!mesh.connectivity().is_boundary(v)) continue;
+    ASSERT_TRUE(old.valid());
+    const Vec3 p = mesh.position(v);
+    // On an edge of the input: its z, and the distance from the nearest chord.
+    EXPECT_EQ(p.z, input.position(old).z);
+    double least = 1;
+    for (const HalfedgeId h : input.halfedges()) {
+      if (!input.connectivity().is_boundary(h)) continue;
+      const Vec3 a = input.position(input.connectivity().origin(h)), b = input.position(input.connectivity().target(h));
+      const double part = std::clamp(dot(p - a, b - a) / squared_length(b - a), 0.0, 1.0);
+      least = std::min(least, length(p - (a + part * (b - a))));
+    }
+    EXPECT_LT(least, 1e-15);
+  }
+  // The boundary still goes around once at each end.
+  double around = 0;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.connectivity().is_boundary(h)) continue;
+    const Vec3 a = mesh.position(mesh.connectivity().origin(h)), b = mesh.position(mesh.connectivity().target(h));
+    const double turn = std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+    EXPECT_EQ(turn > 0, a.z == 0);
+    around += std::abs(turn);
+  }
+  EXPECT_NEAR(around, 4 * std::numbers::pi, 1e-12);
+}
+
+TEST(SurfaceSlide, EndsBendsBranchesAndFixedVerticesOfLinesStay) {
+  // A grid in the plane with a constrained line of five edges, a bend in it, and a branch.
+  test::SurfaceArrays arrays = shaken_grid(8, 0, 1);
+  const auto number = [](int i, int j) { return i * 9 + j; };
+  for (int i = 1; i < 6; ++i) arrays.constrained.push_back({number(i, 4), number(i + 1, 4)});
+  arrays.constrained.push_back({number(6, 4), number(6, 5)});
+  arrays.constrained.push_back({number(3, 4), number(3, 5)});
+  SurfaceInput in = arrays.input();
+  const std::vector<std::int32_t> fixed = {number(5, 4), number(8, 2)};
+  in.fixed_vertices = fixed;
+  const SurfaceMesh mesh = SurfaceMesh::build(in)->mesh;
+  const Lines lines(mesh, {}, true), none(mesh, {}, false);
+  const auto track = [&](int i, int j) { return lines.tracks()[VertexId(static_cast<std::size_t>(number(i, j)))]; };
+  for (const auto& [i, j] :
+       std::vector<std::array<int, 2>>{{1, 4}, {3, 4}, {5, 4}, {6, 4}, {6, 5}, {3, 5}, {8, 2}, {0, 0}})
+    EXPECT_EQ(track(i, j), kHeld) << i << ' ' << j;
+  EXPECT_EQ(track(2, 2), kFree);
+  EXPECT_GE(track(2, 4), 0);
+  EXPECT_GE(track(4, 4), 0);
+  EXPECT_NE(track(2, 4), track(4, 4));
+  EXPECT_EQ(track(8, 3), track(8, 7));
+  EXPECT_NE(track(8, 3), track(8, 1));
+  EXPECT_EQ(lines.closest(track(2, 4), {2.5, 3, 1}), (Vec3{2.5, 4, 0}));
+  EXPECT_EQ(lines.closest(track(2, 4), {5, 3, 1}), (Vec3{3, 4, 0}));
+  EXPECT_NEAR(std::abs(lines.direction(track(2, 4), {2.2, 4, 0}).x), 1, 1e-15);
+  for (const VertexId v : mesh.vertices()) EXPECT_LT(none.tracks()[v], 0);
+  EXPECT_EQ(none.tracks()[VertexId(static_cast<std::size_t>(number(8, 3)))], kHeld);
+}
+
+TEST(SurfaceSlide, VerticesBetweenLinesOfTwoKindsStay) {
+  test::SurfaceArrays arrays = shaken_grid(4, 0, 1);
+  arrays.constrained = {{11, 12}, {12, 13}, {6, 7}, {7, 8}};
+  const SurfaceMesh mesh = test::mesh_of(arrays);
+  const Lines lines(mesh, {{VertexId(12), VertexId(13)}}, true);
+  EXPECT_EQ(lines.tracks()[VertexId(12)], kHeld);
+  EXPECT_GE(lines.tracks()[VertexId(7)], 0);
+}
+
+TEST(SurfaceSlide, EditsRemoveNoVertexOfALineAndNewOnesStayOnIt) {
+  // A grid with a crease along its middle.
+  test::SurfaceArrays arrays = shaken_grid(8, 0.2, 5);
+  State state;
+  const auto id = [](int v) { return VertexId(static_cast<std::size_t>(v)); };
+  for (int i = 0; i <= 8; ++i) {
+    arrays.points[static_cast<std::size_t>(i * 9 + 4)].y = 4;
+    if (i == 8) break;
+    arrays.constrained.push_back({i * 9 + 4, i * 9 + 13});
+    state.creases.push_back({id(i * 9 + 4), id(i * 9 + 13)});
+  }
+  state.mesh = test::mesh_of(arrays);
+  const Lines lines(state.mesh, state.creases, true);
+  state.lines = &lines;
+  state.tracks = lines.tracks();
+  for (const VertexId v : state.mesh.vertices()) state.origins.push_back(v);
+  const auto n_on_lines = [](const State& s) {
+    return std::count_if(s.tracks.begin(), s.tracks.end(), [](Track track) { return track >= 0; });
+  };
+  const Nearness nearness(state.mesh, 1);
+  const SurfaceOptions options;
+  const auto solver = clp_solver();
+  SurfaceReport report;
+  const surfaces::Run run{options, nearness, *solver, report};
+  int splits = 0;
+  for (const TriangleId t : {TriangleId(56), TriangleId(57), TriangleId(70)}) {
+    const Patch patch(state, t, 2);
+    for (const Edit& edit : patch.edits()) {
+      Patch trial = patch;
+      if (!trial.make(edit, nearness)) continue;
+      trial.descend(run);
+      const std::optional<State> next = trial.applied();
+      ASSERT_TRUE(next);
+      const auto cuts = next->creases.size() - state.creases.size();
+      splits += static_cast<int>(cuts);
+      EXPECT_EQ(n_on_lines(*next), n_on_lines(state) + static_cast<std::ptrdiff_t>(cuts));
+      for (const auto& [a, b] : next->creases)
+        EXPECT_TRUE(next->mesh.position(a).y == 4 && next->mesh.position(b).y == 4);
+    }
+  }
+  EXPECT_GT(splits, 0);
 }
 
 TEST(SurfaceOptimize, AThinTriangleThatIsFoldedOverIsNoCrease) {
