@@ -11,6 +11,8 @@
 #include <memory>
 #include <utility>
 
+#include "base/supernodes.hpp"
+
 namespace temper::error_detail {
 namespace {
 
@@ -169,11 +171,9 @@ bool factor_and_solve(const LinearSystem& system, bool with_condition, LinearSol
 }  // namespace
 
 struct Cholesky::Factors {
-  Eigen::Matrix<int, Eigen::Dynamic, 1> place;  // of an unknown in the order of elimination
-  Matrix upper;                                 // the matrix in this order
-  std::vector<MatrixEntry> entries;             // of the matrix that gave the order
-  std::vector<int> slots;                       // of the entries among the values of `upper`
-  Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
+  std::vector<MatrixEntry> entries;  // of the matrix that gave the order
+  std::vector<double> values;        // of the present matrix
+  SupernodalCholesky l;
 
   [[nodiscard]] bool has_entries(const std::vector<MatrixEntry>& lower) const {
     return std::equal(
@@ -187,9 +187,10 @@ void Cholesky::Factors::order(std::size_t unknowns, const std::vector<MatrixEntr
   const auto n = static_cast<Index>(unknowns);
   entries = lower;
   std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(lower.size());
+  std::vector<SupernodalCholesky::Entry> places;
   for (const auto& [row, column, value] : lower) {
-    triplets.emplace_back(static_cast<int>(row), static_cast<int>(column), 1.0);
+    places.push_back({static_cast<int>(row), static_cast<int>(column)});
+    triplets.emplace_back(places.back().row, places.back().column, 1.0);
   }
   Matrix of_entries(n, n);
   of_entries.setFromTriplets(triplets.begin(), triplets.end());
@@ -197,23 +198,8 @@ void Cholesky::Factors::order(std::size_t unknowns, const std::vector<MatrixEntr
   whole = of_entries.selfadjointView<Eigen::Lower>();
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> at_places;
   Eigen::AMDOrdering<int>()(whole, at_places);
-  place = at_places.inverse().eval().indices();
-  triplets.clear();
-  for (const auto& [row, column, value] : lower) {
-    const auto [first, last] = std::minmax(place[static_cast<Index>(row)], place[static_cast<Index>(column)]);
-    triplets.emplace_back(first, last, 1.0);
-  }
-  upper.resize(n, n);
-  upper.setFromTriplets(triplets.begin(), triplets.end());
-  slots.clear();
-  for (const auto& triplet : triplets) {
-    const int* const rows = upper.innerIndexPtr();
-    const int *const from = rows + upper.outerIndexPtr()[triplet.col()], *const to =
-                                                                             rows +
-                                                                             upper.outerIndexPtr()[triplet.col() + 1];
-    slots.push_back(static_cast<int>(std::lower_bound(from, to, triplet.row()) - rows));
-  }
-  ldlt.analyzePattern(upper);
+  const Eigen::VectorXi order = at_places.inverse().eval().indices();
+  l.analyze({order.begin(), order.end()}, places);
 }
 
 bool Cholesky::factor(std::size_t unknowns, const std::vector<MatrixEntry>& lower) {
@@ -221,51 +207,29 @@ bool Cholesky::factor(std::size_t unknowns, const std::vector<MatrixEntry>& lowe
   if (!factors_) factors_ = std::make_shared<Factors>();
   Factors& f = *factors_;
   if (!has_order) f.order(unknowns, lower);
-  std::fill_n(f.upper.valuePtr(), f.upper.nonZeros(), 0.0);
-  for (std::size_t i = 0; i < lower.size(); ++i) {
-    if (!std::isfinite(lower[i].value)) return false;
-    f.upper.valuePtr()[f.slots[i]] += lower[i].value;
+  f.values.clear();
+  for (const MatrixEntry& entry : lower) {
+    if (!std::isfinite(entry.value)) return false;
+    f.values.push_back(entry.value);
   }
-  f.ldlt.factorize(f.upper);
-  return f.ldlt.info() == Eigen::Success && (f.ldlt.vectorD().array() > 0).all();
+  return f.l.factor(f.values);
 }
 
 void Cholesky::solve(std::vector<double>& right) const {
-  if (right.empty()) return;
-  Vector x(static_cast<Index>(right.size()));
-  for (Index i = 0; i < x.size(); ++i) x[factors_->place[i]] = right[static_cast<std::size_t>(i)];
-  x = factors_->ldlt.solve(x).eval();
-  for (Index i = 0; i < x.size(); ++i) right[static_cast<std::size_t>(i)] = x[factors_->place[i]];
+  std::vector<double> x(right.size());
+  for (std::size_t i = 0; i < x.size(); ++i) x[factors_->l.place(i)] = right[i];
+  if (!x.empty()) factors_->l.solve(x.data());
+  for (std::size_t i = 0; i < x.size(); ++i) right[i] = x[factors_->l.place(i)];
 }
 
-// Eigen solves one column after the other. This reads each entry of L once for all lanes.
 void Cholesky::solve(const PointSystem& points, std::vector<Lanes>& at_points) const {
-  const Matrix& l = factors_->ldlt.matrixL().nestedExpression();  // its diagonal is left out
-  const auto place_of = [&](std::size_t point) {
-    return static_cast<std::size_t>(factors_->place[static_cast<Index>(points.unknown(point))]);
-  };
   std::vector<Lanes> x(points.n_unknowns());
+  const auto at = [&](std::size_t point) -> Lanes& { return x[factors_->l.place(points.unknown(point))]; };
   for (std::size_t p = 0; p < at_points.size(); ++p) {
-    if (!points.is_given(p)) x[place_of(p)] = at_points[p];
+    if (!points.is_given(p)) at(p) = at_points[p];
   }
-  for (Index j = 0; j < l.outerSize(); ++j) {
-    const Lanes here = x[static_cast<std::size_t>(j)];
-    for (Matrix::InnerIterator entry(l, j); entry; ++entry) {
-      Lanes& there = x[static_cast<std::size_t>(entry.row())];
-      for (std::size_t i = 0; i < kLanes; ++i) there[i] -= entry.value() * here[i];
-    }
-  }
-  const Vector pivots = factors_->ldlt.vectorD();
-  for (Index j = l.outerSize(); j-- > 0;) {
-    Lanes here = x[static_cast<std::size_t>(j)];
-    for (double& value : here) value /= pivots[j];
-    for (Matrix::InnerIterator entry(l, j); entry; ++entry) {
-      const Lanes& there = x[static_cast<std::size_t>(entry.row())];
-      for (std::size_t i = 0; i < kLanes; ++i) here[i] -= entry.value() * there[i];
-    }
-    x[static_cast<std::size_t>(j)] = here;
-  }
-  for (std::size_t p = 0; p < at_points.size(); ++p) at_points[p] = points.is_given(p) ? Lanes{} : x[place_of(p)];
+  if (!x.empty()) factors_->l.solve_lanes(x.front().data());
+  for (std::size_t p = 0; p < at_points.size(); ++p) at_points[p] = points.is_given(p) ? Lanes{} : at(p);
 }
 
 LinearSolution solve(const LinearSystem& system, bool with_condition) {

@@ -1,4 +1,4 @@
-// Sparse symmetric systems, by Eigen, which solve.cpp alone includes.
+// Sparse symmetric systems, by Eigen, which solve.cpp alone includes, and by the supernodes of base.
 #pragma once
 
 #include <array>

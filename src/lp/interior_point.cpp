@@ -15,7 +15,7 @@
 // The start need not satisfy A x + b > 0. If no x does, the residual A x + b − s stays, and the method gives up.
 #define EIGEN_MPL2_ONLY
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/supernodes.hpp"
 #include "temper/detail/lp.hpp"
 
 namespace temper {
@@ -97,7 +98,7 @@ class NewtonMatrix {
     constant_ = Vector::Zero(matrix_.nonZeros());
     for_each_product(squares, [&](int i, int j, double product) { constant_[place_of(i, j)] += product; });
     for_each_product(rows, [&](int i, int j, double) { places_.push_back(static_cast<int>(place_of(i, j))); });
-    cholesky_.analyzePattern(matrix_);
+    order();
   }
 
   /// The largest entry of Q.
@@ -118,27 +119,49 @@ class NewtonMatrix {
     // Rounding of the largest entry must not make a pivot negative.
     double shift = 0;
     for (int tries = 0; tries < kTries; ++tries) {
-      cholesky_.setShift(shift);
-      cholesky_.factorize(matrix_);
-      if (cholesky_.info() == Eigen::Success) return true;
+      if (cholesky_.factor({values.data(), static_cast<std::size_t>(values.size())}, shift)) return true;
       shift = shift == 0 ? kLeastPivot * values.cwiseAbs().maxCoeff() : 100 * shift;
     }
     return false;
   }
   /// Solves with refinement. Its residuals take A x before D: if D is large A x is small, and no digits are lost.
   [[nodiscard]] Vector solve(const Vector& right) const {
-    Vector x = cholesky_.solve(right);
+    Vector x = solved(right);
     for (int k = 0; k < kRefinements; ++k) {
       Vector left = right;
       add_transposed(squares_, times(squares_, x), -1, left);
       add_transposed(rows_, diagonal_.cwiseProduct(times(rows_, x)), -1, left);
-      x += cholesky_.solve(left);
+      x += solved(left);
     }
     return x;
   }
 
  private:
   static constexpr int kTries = 4, kRefinements = 2;
+
+  void order() {
+    std::vector<SupernodalCholesky::Entry> entries;
+    for (Index j = 0; j < matrix_.outerSize(); ++j) {
+      for (Matrix::InnerIterator entry(matrix_, j); entry; ++entry)
+        entries.push_back({static_cast<int>(entry.row()), static_cast<int>(j)});
+    }
+    Matrix whole;
+    whole = matrix_.selfadjointView<Eigen::Lower>();
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> at_places;
+    Eigen::AMDOrdering<int>()(whole, at_places);
+    const Eigen::VectorXi places = at_places.inverse().eval().indices();
+    cholesky_.analyze({places.begin(), places.end()}, entries);
+  }
+  [[nodiscard]] Vector solved(const Vector& right) const {
+    Vector in_order(right.size()), x(right.size());
+    const auto at = [&](Index i) -> double& {
+      return in_order[static_cast<Index>(cholesky_.place(static_cast<std::size_t>(i)))];
+    };
+    for (Index i = 0; i < x.size(); ++i) at(i) = right[i];
+    cholesky_.solve(in_order.data());
+    for (Index i = 0; i < x.size(); ++i) x[i] = at(i);
+    return x;
+  }
 
   /// Calls use(i, j, product) for all pairs of entries in a row, i ≥ j.
   template <class Use>
@@ -164,7 +187,7 @@ class NewtonMatrix {
   Vector diagonal_;          // D
   Vector constant_;          // Q, at the places of the matrix
   std::vector<int> places_;  // of the products of Aᵀ D A
-  Eigen::SimplicialLLT<Matrix, Eigen::Lower> cholesky_;
+  SupernodalCholesky cholesky_;
 };
 
 class InteriorPoint {

@@ -1,5 +1,5 @@
-// Linear programs by Clp (COIN-OR), and convex programs by temper's interior point method with the sparse Cholesky
-// factors of Eigen, for temper/feasibility.hpp. It is a library of its own, temper::lp.
+// Linear programs by Clp (COIN-OR), and convex programs by temper's interior point method, which takes an order of
+// elimination from Eigen, for temper/feasibility.hpp. It is a library of its own, temper::lp.
 #pragma once
 
 #include <memory>

@@ -1,0 +1,1 @@
+#include "base/supernodes_set.hpp"
