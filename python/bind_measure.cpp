@@ -13,6 +13,7 @@
 #include "temper/tets/quality.hpp"
 #ifdef TEMPER_WITH_ERRORS
 #include "temper/errors.hpp"
+#include "temper/surface_errors.hpp"
 #include "temper/tets/errors.hpp"
 #endif
 
@@ -250,7 +251,8 @@ FieldFrame frame_from(const py::handle& frame) {
   return {{f[0].cast<double>(), f[1].cast<double>()}, f[2].cast<double>()};
 }
 
-py::dict errors_to_dict(const ErrorReport& r) {
+template <class Report>
+py::dict errors_to_dict(const Report& r) {
   py::list levels, local;
   for (const ErrorLevel& level : r.levels) {
     levels.append(Record()("vertices", level.vertices)("triangles", level.triangles)(
@@ -286,7 +288,7 @@ py::dict error_mesh(const PyMesh& self, const py::sequence& fields, const py::ob
   return errors_to_dict(or_raise(std::move(report)));
 }
 
-py::dict error_tets(const PyTetMesh& self, const py::sequence& fields, const py::object& frame, bool condition) {
+tets::MeasureErrorsOptions options_in_space(const py::sequence& fields, const py::object& frame, bool condition) {
   tets::MeasureErrorsOptions options;
   for (const auto& field : fields) options.fields.push_back(field.cast<std::string>());
   if (!frame.is_none()) {
@@ -294,11 +296,22 @@ py::dict error_tets(const PyTetMesh& self, const py::sequence& fields, const py:
     options.frame = {{f[0].cast<double>(), f[1].cast<double>(), f[2].cast<double>()}, f[3].cast<double>()};
   }
   options.condition = condition;
+  return options;
+}
+
+py::dict error_tets(const PyTetMesh& self, const py::sequence& fields, const py::object& frame, bool condition) {
+  const tets::MeasureErrorsOptions options = options_in_space(fields, frame, condition);
   const auto loaded = self.loaded;
   const tets::ErrorReport r = or_raise(aside([&] { return tets::measure_errors(loaded->mesh, options); }));
   py::dict report = fields_of(view_of(r));
   report["fields"] = fields_to_dict(r.fields);
   return report;
+}
+
+py::dict error_surface(const PySurface& self, const py::sequence& fields, const py::object& frame, bool condition) {
+  const tets::MeasureErrorsOptions options = options_in_space(fields, frame, condition);
+  const auto loaded = self.loaded;
+  return errors_to_dict(or_raise(aside([&] { return surfaces::measure_errors(loaded->mesh, options); })));
 }
 
 py::list fields_list(std::span<const ErrorField> fields) {
@@ -322,6 +335,7 @@ std::optional<FieldGroup> group_from(const py::object& group) {
 
 void bind_errors(py::module_& m) {
   m.def("measure_errors", error_mesh);
+  m.def("measure_errors", error_surface);
   m.def("measure_diffusion_errors", diffusion_errors);
   m.def("error_fields", [](bool sphere, bool periodic) {
     const SpaceKind in_plane = periodic ? SpaceKind::periodic_plane : SpaceKind::plane;
@@ -330,6 +344,7 @@ void bind_errors(py::module_& m) {
   m.def("tet_error_fields", [] { return fields_list(tets::error_fields()); });
   m.def("tet_measure_errors", error_tets);
   m.def("tet_field_frame", [](const PyTetMesh& self) { return report_to_python(tets::field_frame(self.mesh())); });
+  m.def("field_frame", [](const PySurface& self) { return report_to_python(surfaces::field_frame(self.mesh())); });
   m.def("field_frame", [](const PyMesh& self) { return report_to_python(field_frame(*self.read())); });
   m.def("error_measures", [] {
     py::list list;

@@ -52,7 +52,7 @@ LAYERS = {
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "mpi": ["base"],
-    "errors": _BELOW + ["location", "energy", "regularity", "quality", "dec", "tets"],
+    "errors": _BELOW + ["location", "energy", "regularity", "quality", "dec", "surfaces", "tets"],
     "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "quality", "lp", "errors", "io", "tets"],
     "build_info": ["base", "io"],
 }
@@ -60,7 +60,7 @@ LIBRARIES = {"tets", "surfaces", "io", "lp", "tbb", "mpi", "errors", "solvers", 
 CORE = set(LAYERS) - LIBRARIES | {"tets", "surfaces"}  # what keeps the rules of the core
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["cell_kinds", "ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "report", "suggest", "utf8", "version"]} | {"temper": "solvers", "criterion": "regularity", "trace": "optimize", "optimize_table": "optimize", "optimizer": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "convex": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "cells": "dec", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "solver_measures": "size", "dec_io": "io", "certificate_io": "io", "file_cures": "io", "html": "io", "path": "io", "faces": "mesh"}
+HEADER_LAYER = {name: "base" for name in ["cell_kinds", "ids", "vec", "space", "error", "progress", "executor", "instruction_set", "outline", "read_number", "report", "suggest", "utf8", "version"]} | {"temper": "solvers", "criterion": "regularity", "trace": "optimize", "optimize_table": "optimize", "surface_errors": "errors", "optimizer": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "convex": "feasibility", "tbb_executor": "tbb", "mpi_communicator": "mpi", "cells": "dec", "columns": "dec", "tensor": "mesh", "discretization_error": "mesh", "solver_measures": "size", "dec_io": "io", "certificate_io": "io", "file_cures": "io", "html": "io", "path": "io", "faces": "mesh"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath

@@ -27,6 +27,9 @@ struct ErrorReport;
 namespace tets {
 struct ErrorReport;
 }
+namespace surfaces {
+struct ErrorReport;
+}
 }  // namespace temper
 
 namespace temper::app {
@@ -81,13 +84,14 @@ struct Tetrahedra {
   static const ReportTable& table_of_data(const io::DataReport* report) { return table_for_tetrahedra(report); }
 };
 
-/// Triangles of a curved surface. They have no tensors, and no errors of solvers.
+/// Triangles of a curved surface. They have no tensors.
 struct Surfaces {
   using Mesh = surfaces::SurfaceMesh;
   using Loaded = io::LoadedSurface;
   using Element = TriangleId;
   using Quality = surfaces::Quality;
   using OptimizeReport = surfaces::SurfaceReport;
+  using ErrorReport = surfaces::ErrorReport;
   static constexpr CellKinds cells = CellKinds::surfaces;
   static constexpr int dimension = 2;
   static constexpr std::string_view element = "triangle", elements = "triangles";
@@ -103,7 +107,7 @@ struct Surfaces {
 
 /// F(Subject) for each kind: sources of templates make them for all kinds with it.
 #define TEMPER_EACH_SUBJECT(F) TEMPER_EACH_FLAT_SUBJECT(F) F(Surfaces)
-/// The same for the kinds that have tensors and errors of solvers.
+/// The same for the kinds that have tensors.
 #define TEMPER_EACH_FLAT_SUBJECT(F) F(Triangles) F(Tetrahedra)
 template <class Subject>
 inline constexpr bool is_flat_subject = !std::is_same_v<Subject, Surfaces>;

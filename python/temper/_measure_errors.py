@@ -13,7 +13,8 @@ from ._dec import CoefficientLike, _coefficient_of, _named_lines
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
 from ._records import Record, expect, merged
 from ._reports import DiffusionErrors, ErrorCounts, ErrorNorms, FieldFrame, TetErrorCounts
-from ._tets import AnyMeshLike, TetMesh, as_flat_mesh
+from ._surfaces import SurfaceMesh
+from ._tets import AnyMeshLike, TetMesh, as_any_mesh, expect_no_options_of_planes
 
 FieldGroup = Literal["chosen", "held-back", "exact"]
 
@@ -27,7 +28,7 @@ class ErrorField(Record):
     """Purpose of the field. An objective may be tuned on the chosen fields. The fields held back then show its true
     value. exact: linear fields, which both schemes must reproduce on any mesh."""
     formula: str
-    """Formula in x and y of the frame, of tetrahedra also in z."""
+    """Formula in x and y of the frame, of tetrahedra and curved surfaces also in z."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -109,7 +110,7 @@ _KEYS = [f"{name}.{norm}" for name in ("star0", "star1", "star2", "poisson", "fl
 
 
 def error_fields(*, sphere: bool = False, periodic: bool = False, tetrahedra: bool = False) -> list[ErrorField]:
-    """The manufactured solutions of the plane, the sphere, a periodic plane, or tetrahedra."""
+    """The manufactured solutions of the plane, the sphere, a periodic plane, or tetrahedra and curved surfaces."""
     rows = _temper.tet_error_fields() if tetrahedra else _temper.error_fields(sphere, periodic)
     return [ErrorField(**row) for row in rows]
 
@@ -117,7 +118,7 @@ def error_fields(*, sphere: bool = False, periodic: bool = False, tetrahedra: bo
 def field_frame(mesh: AnyMeshLike) -> FieldFrame:
     """The frame of the bounding box of the vertices: its longest side goes from −1 to 1. On a sphere its radius
     counts."""
-    any_mesh = as_flat_mesh(mesh)
+    any_mesh = as_any_mesh(mesh)
     if isinstance(any_mesh, TetMesh):
         return _temper.tet_field_frame(any_mesh._handle)
     return _temper.field_frame(any_mesh._handle)
@@ -249,6 +250,10 @@ def measure_errors(
 ) -> TetErrorReport: ...
 @overload
 def measure_errors(
+    mesh: SurfaceMesh, *, fields: Sequence[str] = ..., frame: FieldFrame | None = ..., condition: bool = ..., threads: int | None = ...
+) -> ErrorReport: ...
+@overload
+def measure_errors(
     mesh: MeshLike,
     *,
     fields: Sequence[str] = ...,
@@ -273,13 +278,14 @@ def measure_errors(
 
     Parameters
     ----------
-    mesh : Mesh, TetMesh, or of another library
+    mesh : Mesh, TetMesh, SurfaceMesh, or of another library
     fields : sequence of str
         Names of fields or of groups (``"chosen"``, ``"held-back"``), or ``"all"``; empty: all.
     frame : FieldFrame, optional
         Frame of the fields; None: ``field_frame(mesh)``. Use one frame to compare meshes.
     refine : int
-        Number of refinements, each triangle into four; then orders are measured too. For triangles alone, as ``local``.
+        Number of refinements, each triangle into four; then orders are measured too. For triangles of the plane and the sphere
+        alone, as ``local``.
     condition : bool
         Also estimate the condition of both matrices.
     local : bool
@@ -306,7 +312,11 @@ def measure_errors(
     if isinstance(fields, str):
         fields = [fields]
     plain_frame = expect("frame", frame, FieldFrame)._plain() if frame is not None else None
-    any_mesh = as_flat_mesh(mesh)
+    any_mesh = as_any_mesh(mesh)
+    if isinstance(any_mesh, SurfaceMesh):
+        expect_no_options_of_planes(measure_errors, refine=refine, local=local)
+        d = _temper.measure_errors(any_mesh._handle, list(fields), plain_frame, condition)
+        return ErrorReport(**merged(d, fields=_fields(d["fields"], error_fields(tetrahedra=True)), orders=[]))
     if isinstance(any_mesh, TetMesh):
         if refine or local:
             raise TypeError("refine and local are for triangles alone. Next: leave them out")

@@ -1135,3 +1135,4 @@ class TetDataReport(Record):
 
 CLASSES["TetOptimizeReport"] = OptimizeReport
 CLASSES["TetFieldFrame"] = FieldFrame
+CLASSES["SurfaceErrorCounts"] = ErrorCounts

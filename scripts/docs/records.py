@@ -27,10 +27,10 @@ ROOT = HERE.parent.parent
 WIDTH = 120
 VERSION = 1  # of the schema
 # Reports on tetrahedra that are of the same class in Python as those on triangles.
-SAME_CLASS = {"TetOptimizeReport": "OptimizeReport", "TetFieldFrame": "FieldFrame"}
+SAME_CLASS = {"TetOptimizeReport": "OptimizeReport", "TetFieldFrame": "FieldFrame", "SurfaceErrorCounts": "ErrorCounts"}
 # Reports that only the program has, and reports that npm has not.
 PROGRAM_ALONE = {"Outcome", "Verdict", "Operators", "TetOperators", "ColumnCounts"}
-NOT_IN_NPM = {"SurfaceQuality", "SurfaceOptimizeReport", "SurfaceExplanation", "TetExplanation", "TetReason", "FaceHeight", "DualExplanation", "DualReason", "DataReport", "DiffusionErrors", "DiffusionMatrices", "ErrorCounts", "ErrorMatrices", "ErrorNorms", "ErrorSystem", "FieldFrame"}
+NOT_IN_NPM = {"SurfaceQuality", "SurfaceErrorCounts", "SurfaceOptimizeReport", "SurfaceExplanation", "TetExplanation", "TetReason", "FaceHeight", "DualExplanation", "DualReason", "DataReport", "DiffusionErrors", "DiffusionMatrices", "ErrorCounts", "ErrorMatrices", "ErrorNorms", "ErrorSystem", "FieldFrame"}
 # Fields that Python adds.
 DATA = """    data: DataReport | TetDataReport | None = dataclasses.field(default=None, kw_only=True)
     \"\"\"Report on the data of the mesh; None without data.\"\"\"

@@ -6,9 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include "base/box.hpp"
 #include "errors/poisson.hpp"
+#include "geometry/bounding_boxes.hpp"
 #include "temper/dec.hpp"
+#include "temper/surface_errors.hpp"
 
 namespace temper {
 namespace error_detail {
@@ -42,25 +43,39 @@ bool is_closed(const DecComplex& dec) {
 /// A mesh with its operators, and the setting that refers to both: must not be moved.
 struct Subject {
   Subject(const Mesh& m, const FieldFrame& frame, Executor* executor)
-      : mesh(m), operators(dec_operators(mesh)), setting{mesh,     operators,
-                                                         frame,    domain_area(operators, frame),
-                                                         executor, is_closed(operators)} {}
+      : mesh(m),
+        operators(dec_operators(mesh)),
+        summary(summarize(mesh, operators)),
+        setting{mesh, operators, frame, domain_area(operators, frame), executor, is_closed(operators)} {}
+  Subject(const surfaces::SurfaceMesh& surface, const surfaces::FieldFrame& frame)
+      : mesh(surface.connectivity()),
+        operators(surfaces::dec_operators(surface)),
+        summary(surfaces::summarize(surface, operators)),
+        setting{mesh,
+                operators,
+                {{frame.center.x, frame.center.y}, frame.half_size},
+                domain_area(operators, {{}, frame.half_size}),
+                nullptr,
+                is_closed(operators),
+                &surface,
+                frame.center.z} {}
   Subject(const Subject&) = delete;
   Subject& operator=(const Subject&) = delete;
   ~Subject() = default;
 
   const Mesh& mesh;
   const DecComplex operators;
+  const DecSummary summary;
   const Setting setting;
 };
 
 ErrorLevel level_of(const Subject& subject, std::vector<FieldErrors> fields) {
-  const DecSummary summary = summarize(subject.mesh, subject.operators);
+  const DecSummary& summary = subject.summary;
   return {summary.vertices, summary.triangles, summary.negative_star1, summary.not_well_centered, std::move(fields)};
 }
 
 ErrorReport report_of(const Subject& subject, Measured measured, bool local) {
-  const DecSummary summary = summarize(subject.mesh, subject.operators);
+  const DecSummary& summary = subject.summary;
   ErrorReport report;
   report.vertices = summary.vertices;
   report.edges = summary.edges;
@@ -140,16 +155,18 @@ Measured measure(const Setting& setting, const std::vector<Field>& fields, bool 
 
 FieldFrame field_frame(const Mesh& mesh) {
   if (mesh.space().radius() > 0) return {{0, 0}, mesh.space().radius()};
-  Box box;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  BoundingBox box = {{kInfinity, kInfinity, 0}, {-kInfinity, -kInfinity, 0}};
   for (const VertexId v : mesh.vertices()) {
-    if (!mesh.is_isolated(v)) box.add(mesh.position(v));
+    const Vec3 p = {mesh.position(v).x, mesh.position(v).y, 0};
+    if (!mesh.is_isolated(v)) box = united(box, {p, p});
   }
-  auto& [low, high] = box;
+  Vec2 low = {box.low.x, box.low.y}, high = {box.high.x, box.high.y};
   if (low.x > high.x) return {};  // no vertex of a triangle
   const Vec2 period = mesh.space().period();
   if (period.x > 0) low.x = 0, high.x = period.x;
   if (period.y > 0) low.y = 0, high.y = period.y;
-  return {0.5 * low + 0.5 * high, 0.5 * box.longer_side()};
+  return {0.5 * low + 0.5 * high, 0.5 * std::max(high.x - low.x, high.y - low.y)};
 }
 
 Expected<ErrorReport> measure_errors(const Mesh& mesh, const MeasureErrorsOptions& options) {
@@ -167,4 +184,37 @@ Expected<ErrorReport> measure_errors(const Mesh& mesh, const MeasureErrorsOption
   return report;
 }
 
+namespace surfaces {
+
+FieldFrame field_frame(const SurfaceMesh& mesh) {
+  if (mesh.n_vertices() == 0) return {};
+  BoundingBox box = {mesh.position(VertexId(0)), mesh.position(VertexId(0))};
+  for (const VertexId v : mesh.vertices()) box = united(box, {mesh.position(v), mesh.position(v)});
+  const Vec3 sides = box.high - box.low;
+  return {0.5 * box.low + 0.5 * box.high, 0.5 * sides.*(box.longest())};
+}
+
+Expected<ErrorReport> measure_errors(const SurfaceMesh& mesh, const MeasureErrorsOptions& options) {
+  using namespace error_detail;
+  const auto fields = select_fields(options.fields, fields_of_space(),
+                                    "the fields of curved surfaces are all, chosen, held-back, exact");
+  if (!fields) return fields.error();
+  const FieldFrame frame = options.frame.value_or(field_frame(mesh));
+  temper::MeasureErrorsOptions in_plane;
+  // Not finite if z is not.
+  in_plane.frame = {{frame.center.x + 0 * frame.center.z, frame.center.y}, frame.half_size};
+  if (const auto checked = check(mesh.connectivity(), in_plane); !checked) return checked.error();
+  const Subject subject(mesh, frame);
+  ErrorReport report;
+  static_cast<temper::ErrorReport&>(report) =
+      report_of(subject, measure(subject.setting, *fields, options.condition), false);
+  report.frame = frame;
+  return report;
+}
+
+Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before) {
+  return error_detail::field_ratios(after.fields, before.fields, after.frame == before.frame);
+}
+
+}  // namespace surfaces
 }  // namespace temper

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "errors/stars.hpp"
+#include "errors/surface_means.hpp"
 
 namespace temper::error_detail {
 namespace {
@@ -23,25 +23,29 @@ std::vector<bool> given_vertices(const Setting& s) {
   return given;
 }
 
-/// The deficit of ★0 f per area: on a closed mesh the sum must be zero.
-double surplus(const Setting& s, const Field& field) {
-  if (!s.is_closed) return 0;
+/// The part of ∫ Δu over the cell of a vertex that is above its mean: on a closed mesh the sum must be zero.
+std::vector<double> laplacians(const Setting& s, const Field& field) {
+  std::vector<double> all;
+  if (s.surface != nullptr) all = laplacians_on_surface(s, field);
   double sum = 0, area = 0;
   for (const VertexId v : s.mesh.vertices()) {
-    sum += s.area_in_frame(s.dec.star0[v]) * field.at(s.vertex(v)).laplacian;
-    area += s.area_in_frame(s.dec.star0[v]);
+    const double cell = s.area_in_frame(s.dec.star0[v]);
+    sum += s.surface != nullptr ? all[v.index] : cell * field.at(s.vertex(v)).laplacian;
+    area += cell;
   }
-  return sum / area;
+  const double mean = s.is_closed ? sum / area : 0;
+  if (s.surface == nullptr) all.resize(s.mesh.n_vertices());
+  for (const VertexId v : s.mesh.vertices()) {
+    const double cell = s.area_in_frame(s.dec.star0[v]);
+    all[v.index] = s.surface != nullptr ? all[v.index] - cell * mean : cell * (field.at(s.vertex(v)).laplacian - mean);
+  }
+  return all;
 }
 
 std::vector<double> right_side(const Setting& s, const Field& field, const PointSystem& points) {
-  std::vector<double> sources, values;
-  const double mean = surplus(s, field);
-  for (const VertexId v : s.mesh.vertices()) {
-    const FieldValue value = field.at(s.vertex(v));
-    values.push_back(value.u);
-    sources.push_back(-s.area_in_frame(s.dec.star0[v]) * (value.laplacian - mean));
-  }
+  std::vector<double> sources = laplacians(s, field), values;
+  for (double& source : sources) source = -source;
+  for (const VertexId v : s.mesh.vertices()) values.push_back(field.at(s.vertex(v)).u);
   return points.right_side(sources, values);
 }
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "temper/errors.hpp"
-#include "temper/tets/errors.hpp"
+#include "temper/surface_errors.hpp"
 
 namespace temper {
 namespace {
@@ -118,15 +118,30 @@ const ReportTable& table_of(const DiffusionErrors*) {
   return table;
 }
 
-const ReportTable& table_of(const ErrorReport*) {
-  using R = ErrorReport;
-  static const ReportTable table = counts_table<R>(
-      "ErrorCounts", "The mesh and the matrices of ``measure_errors``.",
+namespace {
+
+template <class R>
+ReportTable counts_of_triangles(std::string_view name, std::string_view sentence) {
+  return counts_table<R>(
+      name, sentence,
       {{"triangles", "Number of triangles", "", &R::triangles},
        {"not_well_centered", "Number of triangles that are not well-centered, exact", "", &R::not_well_centered},
        {"non_regular_edges", "Number of interior edges of negative dual length, exact", "", &R::non_regular_edges},
        {"negative_boundary_duals", "Number of boundary edges with a negative dual length, exact", "",
         &R::negative_boundary_duals}});
+}
+
+}  // namespace
+
+const ReportTable& table_of(const ErrorReport*) {
+  static const ReportTable table =
+      counts_of_triangles<ErrorReport>("ErrorCounts", "The mesh and the matrices of ``measure_errors``.");
+  return table;
+}
+
+const ReportTable& surfaces::table_of(const ErrorReport*) {
+  static const ReportTable table = counts_of_triangles<ErrorReport>(
+      "SurfaceErrorCounts", "The mesh and the matrices of ``measure_errors``, of a curved surface.");
   return table;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/sum.hpp"
 #include "errors/fields.hpp"
+#include "errors/surface_means.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/blocks.hpp"
 
@@ -83,6 +84,7 @@ EdgeMeans means_on_sphere(const Setting& s, const Field& field, EdgeId e) {
 }
 
 EdgeMeans means_of(const Setting& s, const Field& field, EdgeId e) {
+  if (s.surface != nullptr) return means_on_surface(s, field, e);
   return s.dec.sphere_midpoints.empty() ? means_in_plane(s, field, s.dec.edges[e]) : means_on_sphere(s, field, e);
 }
 
@@ -158,7 +160,7 @@ LocalErrors local_star_errors(const Setting& s, const Field& field, const IdVect
   const FieldSize size = size_of(field);
   const std::vector<double> cells = unsigned_cells(s);
   LocalErrors errors;
-  errors[0] = dual_cell_integrals(s, means);
+  errors[0] = s.surface != nullptr ? dual_cell_integrals_on_surface(s, field) : dual_cell_integrals(s, means);
   for (const VertexId v : s.mesh.vertices()) {
     double& error = errors[0][v.index];
     error -= s.area_in_frame(s.dec.star0[v]) * field.at(s.vertex(v)).u;
@@ -168,7 +170,7 @@ LocalErrors local_star_errors(const Setting& s, const Field& field, const IdVect
   for (const EdgeMeans& mean : means) {
     errors[1].push_back(length(mean.dual_gradient - mean.gradient) / size.gradient);
   }
-  errors[2] = triangle_integrals(s, means);
+  errors[2] = s.surface != nullptr ? triangle_integrals_on_surface(s, field) : triangle_integrals(s, means);
   for (const TriangleId t : s.mesh.triangles()) {
     double& error = errors[2][t.index];
     error = std::abs(error / s.area_in_frame(s.dec.areas[t]) - field.at(s.orthocenter(t)).u) / size.value;

@@ -8,6 +8,7 @@
 #include "errors/fields.hpp"
 #include "temper/dec.hpp"
 #include "temper/errors.hpp"
+#include "temper/surfaces.hpp"
 
 namespace temper::error_detail {
 
@@ -17,23 +18,31 @@ struct Setting {
   FieldFrame frame;
   double area = 0;  ///< of the domain, in the frame
   Executor* executor = nullptr;
-  bool is_closed = false;  ///< without boundary: nothing is given on a boundary
+  bool is_closed = false;                          ///< without boundary: nothing is given on a boundary
+  const surfaces::SurfaceMesh* surface = nullptr;  ///< if it is one, with `mesh` as its connectivity
+  double center_z = 0;                             ///< of the frame, for a surface
 
-  [[nodiscard]] bool is_plane() const { return mesh.space().is_plane(); }
+  [[nodiscard]] bool is_plane() const { return surface == nullptr && mesh.space().is_plane(); }
   [[nodiscard]] Vec2 in_frame(Vec2 p) const { return (1 / frame.half_size) * (p - frame.center); }
+  [[nodiscard]] Place in_frame(Vec3 p) const {
+    return (1 / frame.half_size) * (p - Vec3{frame.center.x, frame.center.y, center_z});
+  }
   [[nodiscard]] double length_in_frame(double length) const { return length / frame.half_size; }
   [[nodiscard]] double area_in_frame(double area_of_mesh) const {
     return area_of_mesh / frame.half_size / frame.half_size;
   }
   [[nodiscard]] Place vertex(VertexId v) const {
+    if (surface != nullptr) return in_frame(surface->position(v));
     if (is_plane()) return in_frame(mesh.position(v));
     return unit(mesh.weighted_vector(v));
   }
   [[nodiscard]] Place orthocenter(TriangleId t) const {
+    if (surface != nullptr) return in_frame(dec.sphere_orthocenters[t]);
     if (is_plane()) return in_frame(dec.orthocenters[t]);
     return unit(dec.sphere_orthocenters[t]);
   }
   [[nodiscard]] Place midpoint(EdgeId e) const {
+    if (surface != nullptr) return in_frame(dec.sphere_midpoints[e]);
     if (is_plane()) return in_frame(dec.edges[e].midpoint);
     return unit(dec.sphere_midpoints[e]);
   }

@@ -1,5 +1,6 @@
 """Curved surfaces: from arrays, files and other libraries, and every function that takes them."""
 
+import json
 import pickle
 import subprocess
 import types
@@ -262,7 +263,6 @@ def test_what_is_not_for_surfaces_says_so(torus, ring):
         (lambda: temper.find_weights(torus, flips="all"), "flips: expected 'none' or 'intrinsic'"),
         (lambda: temper.find_weights(ring, flips="intrinsic"), "flips is for curved surfaces alone"),
         (lambda: temper.write("x.vtu", torus, cells="power"), "cells is not for curved surfaces"),
-        (lambda: temper.measure_errors(torus), "found a SurfaceMesh"),
         (lambda: temper.plot(torus), "found a SurfaceMesh"),
         (lambda: temper.html_report(torus), "found a SurfaceMesh"),
         (lambda: temper.power_cells(torus), "found a SurfaceMesh"),
@@ -272,3 +272,23 @@ def test_what_is_not_for_surfaces_says_so(torus, ring):
     ):
         with pytest.raises((TypeError, ValueError), match=message):
             call()
+
+
+def test_errors_of_solvers_are_those_of_the_program(torus, better, in_scratch):
+    frame = temper.field_frame(torus)
+    assert len(frame.center) == 3
+    before, after = temper.measure_errors(torus, condition=True), temper.measure_errors(better, frame=frame)
+    assert [row.field.name for row in before.fields] == [f.name for f in temper.error_fields(tetrahedra=True) if f.group != "exact"]
+    assert before.triangles == torus.n_triangles and before.frame == frame and before.matrices.poisson.condition > 1
+    assert after.matrices.flux.m_matrix and not before.matrices.flux.m_matrix
+    assert before.levels == before.orders == [] and all(len(errors) == 0 for errors in before.local)
+    ratio = temper.geometric_mean(temper.error_ratios(after, before)).star[2].l2
+    assert 0 < ratio < 1
+    linear = temper.measure_errors(torus, fields="linear").fields[0].errors
+    assert linear.poisson.max < 1e-12 and linear.flux.max < 1e-12 < linear.star[0].max
+    with pytest.raises(TypeError, match="refine is not for curved surfaces"):
+        temper.measure_errors(torus, refine=1)
+    temper.write("torus.vtu", torus)
+    run = subprocess.run(["temper", "errors", "torus.vtu", "--json"], capture_output=True, text=True, check=True)
+    errors = json.loads(run.stdout)["errors"]["fields"]
+    assert [row["flux"]["l2"] for row in errors] == [row.errors.flux.l2 for row in before.fields]

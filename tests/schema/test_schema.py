@@ -34,6 +34,7 @@ def other_documents(temper, folder):
         ("certificate_check", said("weights", "shoe.vtu", "--check-certificate", "why.json")), ("certificate", file("why.json")),
         ("errors", said("errors", "square.vtu", "--refine", "1", "--against", "square.vtu")),
         ("errors_tetrahedra", said("errors", "tet.mesh", "--against", "tet.mesh")),
+        ("errors_surfaces", said("errors", "surface.obj", "--against", "surface.obj")),
         ("problem", said("errors", "square.vtu", "--dirichlet", "1=0", "--source", "1", "--against", "square.vtu")),
         ("Operators", said("operators", "square.vtu", "-o", "dual", "--format", "npz")),
         ("TetOperators", said("operators", "tet.mesh", "-o", "dual", "--format", "npz")),

@@ -41,15 +41,6 @@ using Input = InputOf<Triangles>;
 using TetInput = InputOf<Tetrahedra>;
 using SurfaceInput = InputOf<Surfaces>;
 using AnyInput = std::variant<Input, TetInput, SurfaceInput>;
-/// Calls f with an input that is no surface, for verbs that take no surfaces.
-template <class F>
-void visit_flat(AnyInput& any, const F& f) {
-  std::visit(
-      [&f]<class Subject>(InputOf<Subject>& input) {
-        if constexpr (is_flat_subject<Subject>) f(input);
-      },
-      any);
-}
 
 /// A text file to be read line by line; Failure if it cannot be read, or is a device such as /dev/zero without an end.
 [[nodiscard]] std::ifstream open_text(const std::string& path);

@@ -288,9 +288,6 @@ Option& Command::option(std::string_view name) { return options_[index_of(name)]
 bool Command::was_given(std::string_view name) const { return !options_[index_of(name)].given.empty(); }
 
 void Command::expect_for(CellKinds cells, const std::string& path) const {
-  if (!fits(cells_, cells))
-    throw Failure(Exit::bad_input, fmt::format("{}: has {}; temper {} takes {}. Next: {}", path, name_of_mesh(cells),
-                                               name_, temper::name(cells_), next_for_others_));
   for (const Option& option : options_) {
     for (const std::string& text : option.given) {
       const bool by_value = fits(option.cells, cells) && option.cells_of;

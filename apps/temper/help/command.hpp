@@ -130,18 +130,14 @@ class Command {
   [[nodiscard]] Option& option(std::string_view name);
   [[nodiscard]] Option& option_at(std::size_t index) { return options_[index]; }
   [[nodiscard]] bool was_given(std::string_view name) const;
-  /// The verb is for these kinds of cells alone; `next` says what to do with others.
-  void only_for(CellKinds cells, std::string next) { cells_ = cells, next_for_others_ = std::move(next); }
-  /// Refuses (bad usage) an option or a value that was given, but is for other cells than the mesh in `path` has. Also
-  /// if the verb is.
+  /// Refuses (bad usage) an option or a value that was given, but is for other cells than the mesh in `path` has.
   void expect_for(CellKinds cells, const std::string& path) const;
 
  private:
   class Parser;
   [[nodiscard]] std::size_t index_of(std::string_view name) const;
 
-  std::string name_, description_, group_, next_for_others_;
-  CellKinds cells_ = CellKinds::all;
+  std::string name_, description_, group_;
   VerbHelp help_;
   std::deque<Option> options_;      // whose references stay good
   std::list<Command> subcommands_;  // the same, of a type that is not complete here

@@ -296,7 +296,7 @@ std::string error_json(const ErrorRecord<Subject>& record) {
 #define TEMPER_MAKE(S)                                                                 \
   template std::string error_text(const ErrorRecord<S>&, ErrorRows, const TextStyle&); \
   template std::string error_json(const ErrorRecord<S>&);
-TEMPER_EACH_FLAT_SUBJECT(TEMPER_MAKE)
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
 #undef TEMPER_MAKE
 
 std::string edge_errors_csv(const ErrorReport& report, const Input& input) {

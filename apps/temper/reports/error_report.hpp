@@ -7,6 +7,7 @@
 
 #include "reports/quality_report.hpp"
 #include "temper/errors.hpp"
+#include "temper/surface_errors.hpp"
 #include "temper/tets/errors.hpp"
 
 namespace temper::app {

@@ -11,6 +11,7 @@
 #include "temper/detail/optimize_table.hpp"
 #ifdef TEMPER_WITH_ERRORS
 #include "temper/errors.hpp"
+#include "temper/surface_errors.hpp"
 #include "temper/tets/errors.hpp"
 #endif
 
@@ -84,7 +85,7 @@ Json json_of_reports() {
           Progress, TraceEvent, io::DataReport, Outcome, Verdict, DecSummary, tets::DecSummary, DecRecord, TetDecRecord,
           ExplanationReport, tets::ExplanationReport, surfaces::Explanation, DualExplanation>(tables);
 #ifdef TEMPER_WITH_ERRORS
-  add_all<ErrorReport, tets::ErrorReport, DiffusionErrors>(tables);
+  add_all<ErrorReport, tets::ErrorReport, surfaces::ErrorReport, DiffusionErrors>(tables);
 #endif
   for (const CellKinds kind : kEachKind)
     tables.add(with_subject(

@@ -49,7 +49,7 @@ std::string field_names() {
   add("Fields of the plane:", error_fields(SpaceKind::plane));
   add(" Fields of the sphere:", error_fields(SpaceKind::sphere));
   add(" Fields of a periodic plane:", error_fields(SpaceKind::periodic_plane));
-  add(" Fields of tetrahedra:", tets::error_fields());
+  add(" Fields of tetrahedra and curved surfaces:", tets::error_fields());
   return text;
 }
 
@@ -132,8 +132,10 @@ MeasureErrorsOptions error_options(const ErrorSettings& s, const Input& input, E
   options.local = !s.edges.empty();
   return options;
 }
-tets::MeasureErrorsOptions error_options(const ErrorSettings& s, const TetInput& input, Executor* /*executor*/) {
-  return {separated(s.fields), tets::field_frame(input.mesh()), s.condition};
+template <class Subject>
+tets::MeasureErrorsOptions error_options(const ErrorSettings& s, const InputOf<Subject>& input,
+                                         Executor* /*executor*/) {
+  return {separated(s.fields), field_frame(input.mesh()), s.condition};
 }
 /// Those for the mesh of --against.
 MeasureErrorsOptions without_orders(MeasureErrorsOptions options) {
@@ -146,7 +148,8 @@ tets::MeasureErrorsOptions without_orders(tets::MeasureErrorsOptions options) { 
 void write_edges(const ErrorSettings& s, const ErrorRecord<Triangles>& record, const Input& input, Outputs& outputs) {
   if (!s.edges.empty()) outputs.write_text(s.edges, edge_errors_csv(record.report, input));
 }
-void write_edges(const ErrorSettings&, const ErrorRecord<Tetrahedra>&, const TetInput&, Outputs&) {}
+template <class Subject>
+void write_edges(const ErrorSettings&, const ErrorRecord<Subject>&, const InputOf<Subject>&, Outputs&) {}
 
 template <class Subject>
 InputOf<Subject> read_reference(const ErrorSettings& s, const InputOf<Subject>& input, Executor* executor) {
@@ -159,13 +162,13 @@ InputOf<Subject> read_reference(const ErrorSettings& s, const InputOf<Subject>& 
 /// The report about manufactured solutions.
 template <class Subject>
 void report_fields(const ErrorSettings& s, InputOf<Subject>& input, Outputs& outputs, Executor* executor) {
-  take_to_metric(input, s.tensor);
+  if constexpr (is_flat_subject<Subject>) take_to_metric(input, s.tensor);
   const auto options = error_options(s, input, executor);
   const auto measured = [](const auto& mesh, const auto& how) { return or_fail(measure_errors(mesh, how)); };
   ErrorRecord<Subject> record = {s.input, measured(input.mesh(), options), {}};
   if (!s.against.empty()) {
     InputOf<Subject> reference = read_reference(s, input, executor);
-    take_to_metric(reference, s.tensor);
+    if constexpr (is_flat_subject<Subject>) take_to_metric(reference, s.tensor);
     compare_boxes(s, *options.frame, field_frame(reference.mesh()));
     record.against = {s.against, measured(reference.mesh(), without_orders(options)), {}};
     record.against->ratios = or_fail(error_ratios(record.report, record.against->report));
@@ -208,7 +211,6 @@ Exit run_errors(const Arguments& arguments) {
       "orthocenters. It also describes their matrices. The page docs/reference/errors.md defines every number.");
   ErrorSettings s;
   add_options(command, s);
-  command.only_for(CellKinds::both, "temper operators IN -o DIR writes the stars, to compare with known solutions");
   if (!command.parse(arguments)) return Exit::done;
   check_fields({.fields = separated(s.fields)});
   Outputs outputs("errors");
@@ -223,11 +225,11 @@ Exit run_errors(const Arguments& arguments) {
     if (s.problem.given()) expect_no_fields(command);
   };
   AnyInput any = read_any(s.input, {s.projection, {}, threads.get(), s.heights, expect});
-  visit_flat(any, [](const auto& input) { print_warnings(input.warnings()); });
+  std::visit([](const auto& input) { print_warnings(input.warnings()); }, any);
   if (s.problem.given()) {
     report_problem(command, s, std::get<Input>(any), threads.get());
   } else {
-    visit_flat(any, [&](auto& input) { report_fields(s, input, outputs, threads.get()); });
+    std::visit([&](auto& input) { report_fields(s, input, outputs, threads.get()); }, any);
   }
   return Exit::done;
 }

@@ -172,6 +172,20 @@ TEST_F(Surfaces, HaveOperatorsInSpace) {
   EXPECT_EQ(temper({"operators", "good.vtu", "-o", "ops", "--format", "disv"}).exit, 2);
 }
 
+TEST_F(Surfaces, HaveErrorsOfSolvers) {
+  make_torus();
+  write("fine.obj", torus(40, 16));
+  const nlohmann::json json =
+      nlohmann::json::parse(temper_ok({"errors", "fine.obj", "--against", "in.obj", "--json"}).out);
+  EXPECT_EQ(json["triangles"], 1280);
+  EXPECT_EQ(json["frame"]["center"].size(), 3);
+  EXPECT_EQ(json["errors"]["fields"].size(), 7);
+  EXPECT_NEAR(json["against"]["ratios"]["mean"]["all"]["poisson"]["l2"], 0.25, 0.1);
+  const Outcome linear = temper_ok({"errors", "in.obj", "--fields", "exact"});
+  EXPECT_TRUE(contains(linear.out, "in.obj: 320 triangles, 154 bad (not well-centered); "));
+  EXPECT_TRUE(contains(linear.out, "relative error, linear"));
+}
+
 TEST_F(Surfaces, AreExplainedAndDrawn) {
   make_torus();
   const Outcome why = temper_ok({"explain", "in.obj", "--limit", "2"});
@@ -238,7 +252,8 @@ TEST_F(Surfaces, WhatIsNotForThemIsRefusedByName) {
   EXPECT_TRUE(contains(error_of({"weights", "in.obj", "-o", "out.obj", "--for", "stars"}), has + "--for stars is"));
   EXPECT_TRUE(contains(error_of({"optimize", "in.obj", "-o", "out.obj", "--crease-angle", "0"}),
                        "--crease-angle: 0 is out of range"));
-  EXPECT_TRUE(contains(error_of({"errors", "in.obj"}), "temper errors takes triangles and tetrahedra. Next: "));
+  EXPECT_TRUE(contains(error_of({"errors", "in.obj", "--refine", "1"}), has + "--refine is for triangles alone"));
+  EXPECT_TRUE(contains(error_of({"errors", "in.obj", "--fields", "product"}), "fields of curved surfaces are all"));
   make_input();
   EXPECT_TRUE(contains(error_of({"optimize", "in.vtu", "-o", "out.vtu", "--surface-distance", "0.1"}),
                        "in.vtu has triangles, and --surface-distance is for curved surfaces alone"));
