@@ -113,11 +113,16 @@ void Descent::shorten(Function& f, Vector& step, Executor* executor) {
   }
   std::vector<double> least(f.n_elements());
   for_each_index(least.size(), executor, [&](std::size_t e) { least[e] = kKeptRoom * f.room(e); });
-  std::vector<std::uint8_t> is_short(least.size());
+  std::vector<std::uint8_t> is_short(least.size()), is_halved(n_points, 1);
   for (int i = 0; i < kMostHalvings; ++i) {
     f.place(step, 1);
-    for_each_index(least.size(), executor, [&](std::size_t e) { is_short[e] = f.room(e) >= least[e] ? 0 : 1; });
-    std::vector<std::uint8_t> is_halved(n_points, 0);
+    for_each_index(least.size(), executor, [&](std::size_t e) {  // where no corner has moved there is still room
+      const auto& corners = f.corners(e);
+      const bool has_moved =
+          std::any_of(corners.begin(), corners.end(), [&](auto v) { return is_halved[v.index] != 0; });
+      is_short[e] = !has_moved || f.room(e) >= least[e] ? 0 : 1;
+    });
+    is_halved.assign(n_points, 0);
     for (std::size_t e = 0; e < least.size(); ++e) {
       if (is_short[e] == 0) continue;
       for (const auto corner : f.corners(e)) {

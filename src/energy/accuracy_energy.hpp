@@ -126,6 +126,8 @@ class AccuracyPatch {
   [[nodiscard]] double value(const WeightedPoint& p);
   /// All derivatives at the point of the last call of value(), which was finite.
   [[nodiscard]] VertexDerivatives derivatives();
+  /// The first derivatives alone.
+  [[nodiscard]] WeightedPoint gradient();
   /// Says whether all triangles of the star are well-centered with the center at p, exactly.
   [[nodiscard]] bool is_well_centered(const WeightedPoint& p) const;
   /// The length of the shortest spoke.

@@ -2,13 +2,14 @@
 
 #define EIGEN_MPL2_ONLY
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "base/supernodes.hpp"
@@ -157,13 +158,53 @@ std::unique_ptr<Lu> lu_of(const Matrix& matrix) {
   return lu;
 }
 
-/// LDLᵀ, or LU: false when neither solves it.
+/// Finds the order of elimination of a matrix with these entries of both triangles, for entries of one.
+void analyze(SupernodalCholesky& l, const Matrix& whole, std::span<const SupernodalCholesky::Entry> entries) {
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> at_places;
+  Eigen::AMDOrdering<int>()(whole, at_places);
+  const Eigen::VectorXi order = at_places.inverse().eval().indices();
+  l.analyze({order.begin(), order.end()}, entries);
+}
+
+/// The factors of a positive definite matrix.
+class Definite {
+ public:
+  explicit Definite(const Matrix& matrix) {
+    std::vector<SupernodalCholesky::Entry> entries;
+    std::vector<double> values;
+    for (Index j = 0; j < matrix.outerSize(); ++j) {
+      for (Matrix::InnerIterator entry(matrix, j); entry; ++entry) {
+        if (entry.row() < j) continue;
+        entries.push_back({static_cast<int>(entry.row()), static_cast<int>(j)});
+        values.push_back(entry.value());
+      }
+    }
+    analyze(l_, matrix, entries);
+    is_definite_ = l_.factor(values);
+  }
+  [[nodiscard]] bool is_definite() const { return is_definite_; }
+  [[nodiscard]] Vector solve(const Vector& right) const {
+    Vector in_order(right.size()), x(right.size());
+    for (Index i = 0; i < x.size(); ++i) in_order[place(i)] = right[i];
+    l_.solve(in_order.data());
+    for (Index i = 0; i < x.size(); ++i) x[i] = in_order[place(i)];
+    return x;
+  }
+
+ private:
+  [[nodiscard]] Index place(Index i) const { return static_cast<Index>(l_.place(static_cast<std::size_t>(i))); }
+
+  SupernodalCholesky l_;
+  bool is_definite_ = false;
+};
+
+/// LLᵀ, or LU: false when neither solves it.
 bool factor_and_solve(const LinearSystem& system, bool with_condition, LinearSolution& result) {
   const Vector scaling = scaling_of(system);
   const Scaled scaled = {system, scaling, scaled_matrix(system, scaling)};
-  const Eigen::SimplicialLDLT<Matrix> ldlt(scaled.matrix);
-  result.definite = ldlt.info() == Eigen::Success && (ldlt.vectorD().array() > 0).all();
-  if (result.definite) return solve_with(scaled, ldlt, with_condition, result);
+  const Definite definite(scaled.matrix);
+  result.definite = definite.is_definite();
+  if (result.definite) return solve_with(scaled, definite, with_condition, result);
   const std::unique_ptr<Lu> lu = lu_of(scaled.matrix);
   return lu->info() == Eigen::Success && solve_with(scaled, *lu, with_condition, result);
 }
@@ -196,10 +237,7 @@ void Cholesky::Factors::order(std::size_t unknowns, const std::vector<MatrixEntr
   of_entries.setFromTriplets(triplets.begin(), triplets.end());
   Matrix whole;
   whole = of_entries.selfadjointView<Eigen::Lower>();
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> at_places;
-  Eigen::AMDOrdering<int>()(whole, at_places);
-  const Eigen::VectorXi order = at_places.inverse().eval().indices();
-  l.analyze({order.begin(), order.end()}, places);
+  analyze(l, whole, places);
 }
 
 bool Cholesky::factor(std::size_t unknowns, const std::vector<MatrixEntry>& lower) {

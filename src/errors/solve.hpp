@@ -22,13 +22,13 @@ struct LinearSystem {
 };
 
 struct LinearSolution {
-  bool definite = false;                       ///< all pivots of LDLᵀ positive
+  bool definite = false;                       ///< all pivots of LLᵀ positive
   bool singular = false;                       ///< then there are no solutions
   std::vector<std::vector<double>> solutions;  ///< one for each right side
   std::optional<double> condition = {};        ///< |λ| largest over least, from below; +∞ when singular
 };
 
-/// LDLᵀ for a positive definite matrix, else LU with pivoting. A matrix is called singular when neither gives solutions
+/// LLᵀ for a positive definite matrix, else LU with pivoting. A matrix is called singular when neither gives solutions
 /// with a residual of the size of rounding.
 [[nodiscard]] LinearSolution solve(const LinearSystem& system, bool with_condition);
 

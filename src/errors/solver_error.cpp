@@ -1,6 +1,7 @@
 // See make_discretization_error() in temper/errors.hpp. The mean squared error of a scheme over many waves, and its
 // derivatives by the discrete adjoint.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -23,12 +24,14 @@ namespace {
 /// ½∫ cos(s h) ds and ½∫ s sin(s h) ds over [−1, 1]: a wave's means over a segment on which its angle changes by 2h.
 struct SegmentMeans {
   double even = 1, odd = 0;
-
+  double half_secant = 0;  // 1/(2 cos h), or 0 if the segment is long
+  SegmentMeans() = default;
   explicit SegmentMeans(double h) {
     const double z = h * h;
     if (z < 0.06) {  // the next terms are below 1e-16
       even = 1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110))));
       odd = h / 3 * (1 - z / 10 * (1 - z / 28 * (1 - z / 54 * (1 - z / 88))));
+      half_secant = 0.5 / (1 - z / 2 * (1 - z / 12 * (1 - z / 30 * (1 - z / 56 * (1 - z / 90)))));
     } else {
       const auto [sine, cosine] = sine_cosine(h);
       even = sine / h, odd = (sine - h * cosine) / z;
@@ -99,12 +102,13 @@ class CellSolver final : public Solver {
 
   [[nodiscard]] double error(const Waves& waves, Adjoint* by) const override {
     const auto& [mesh, dec, all] = subject();
-    std::vector<Lanes> value(mesh.n_triangles()), errors(value.size());
+    std::vector<Lanes> at_vertices(mesh.n_vertices()), value(mesh.n_triangles()), errors(value.size());
+    for (const VertexId v : mesh.vertices()) at_vertices[v.index] = waves.at(mesh.position(v));
     for (const TriangleId t : mesh.triangles()) value[t.index] = waves.at(dec.orthocenters[t]);
     for (std::size_t e = 0; e < dec.edges.size(); ++e) {
       const DecEdge& edge = dec.edges[EdgeId(e)];
       const double coefficient = dec.transmissibility[EdgeId(e)];
-      const Lanes flow = flow_through(waves, edge);
+      const Lanes flow = flow_through(waves, edge, at_vertices);
       if (edge.is_boundary()) {
         const std::size_t k = inner_triangle(edge).index;
         const Lanes outside = waves.at(edge.midpoint);
@@ -134,28 +138,52 @@ class CellSolver final : public Solver {
       by->area[t] += waves.share * squared(errors[p]);
       by->orthocenter[t] = by->orthocenter[t] + waves.by_place(by_angle);
     }
-    for (std::size_t e = 0; e < dec.edges.size(); ++e) add_edge(EdgeId(e), waves, value, lambda, *by);
+    for (std::size_t e = 0; e < dec.edges.size(); ++e) add_edge(EdgeId(e), waves, {at_vertices, value, lambda}, *by);
     return sum;
   }
 
  private:
+  struct Values {
+    const std::vector<Lanes>&at_vertices, &in_triangles, &lambda;
+  };
+  /// Waves on an edge: their means, and their values in its middle. By sin a + sin b = 2 sin((a + b)/2) cos((a − b)/2)
+  /// the values at the ends give those in the middle.
+  struct OnEdge {
+    Vec2 e;
+    std::array<SegmentMeans, kDirections> means;
+    Lanes middle;
+
+    OnEdge(const Mesh& mesh, const Waves& waves, const DecEdge& edge, const std::vector<Lanes>& at_vertices)
+        : e(mesh.position(edge.to) - mesh.position(edge.from)) {
+      const Lanes &from = at_vertices[edge.from.index], &to = at_vertices[edge.to.index];
+      bool is_long = false;
+      for (std::size_t d = 0; d < kDirections; ++d) {
+        means[d] = SegmentMeans(0.5 * dot(waves.k[d], e));
+        is_long = is_long || means[d].half_secant == 0;
+        for (const std::size_t i : {2 * d, 2 * d + 1}) middle[i] = means[d].half_secant * (from[i] + to[i]);
+      }
+      if (is_long) middle = waves.at(mesh.position(edge.from) + 0.5 * e);
+    }
+  };
+
   /// ∫ ∇u · n over an edge, n to its left.
-  [[nodiscard]] Lanes flow_through(const Waves& waves, const DecEdge& edge) const {
-    const Vec2 a = subject().mesh.position(edge.from), e = subject().mesh.position(edge.to) - a;
-    Lanes flow = waves.slopes(waves.at(a + 0.5 * e));
+  [[nodiscard]] Lanes flow_through(const Waves& waves, const DecEdge& edge,
+                                   const std::vector<Lanes>& at_vertices) const {
+    const OnEdge on(subject().mesh, waves, edge, at_vertices);
+    Lanes flow = waves.slopes(on.middle);
     for (std::size_t d = 0; d < kDirections; ++d) {
-      const double factor = cross(e, waves.k[d]) * SegmentMeans(0.5 * dot(waves.k[d], e)).even;
+      const double factor = cross(on.e, waves.k[d]) * on.means[d].even;
       flow[2 * d] *= factor, flow[2 * d + 1] *= factor;
     }
     return flow;
   }
 
-  void add_edge(EdgeId id, const Waves& waves, const std::vector<Lanes>& value, const std::vector<Lanes>& lambda,
-                Adjoint& by) const {
+  void add_edge(EdgeId id, const Waves& waves, const Values& values, Adjoint& by) const {
     const auto& [mesh, dec, all] = subject();
+    const auto& [at_vertices, value, lambda] = values;
     const DecEdge& edge = dec.edges[id];
-    const Vec2 from = mesh.position(edge.from), e = mesh.position(edge.to) - from;
     if (edge.is_boundary()) {
+      const Vec2 e = mesh.position(edge.to) - mesh.position(edge.from);
       const std::size_t k = inner_triangle(edge).index;
       const Lanes outside = waves.at(edge.midpoint);
       by.transmissibility[id] += by_coefficient(lambda[k], {}, value[k], outside);
@@ -168,14 +196,14 @@ class CellSolver final : public Solver {
     by.transmissibility[id] += by_coefficient(left, right, value[edge.left.index], value[edge.right.index]);
     // ∫ f over the triangle on the left grows by f times the way if the edge moves to the right. The ends take ∫ f (1 −
     // t) and ∫ f t, t from 0 to 1.
-    const Lanes middle = waves.at(from + 0.5 * e);
+    const OnEdge on(mesh, waves, edge, at_vertices);
+    const auto& [e, means, middle] = on;
     const Lanes slopes = waves.slopes(middle);
     double even = 0, odd = 0;
     for (std::size_t d = 0; d < kDirections; ++d) {
-      const SegmentMeans means(0.5 * dot(waves.k[d], e));
       for (const std::size_t i : {2 * d, 2 * d + 1}) {
-        even += (left[i] - right[i]) * middle[i] * means.even;
-        odd += (left[i] - right[i]) * slopes[i] * means.odd;
+        even += (left[i] - right[i]) * middle[i] * means[d].even;
+        odd += (left[i] - right[i]) * slopes[i] * means[d].odd;
       }
     }
     const double half = 0.5 * waves.k2;

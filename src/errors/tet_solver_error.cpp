@@ -25,43 +25,69 @@ using error_detail::vertex_system;
 using Fields = error_detail::FieldBlock<Vec3>;
 constexpr std::size_t kBlocksOfNumber = 2;
 
-/// ★0 and ★1 as sums over the parts of tetrahedra: ★1 of |e| |e*| over |e|², ★0 of its thirds, by the crossing.
-struct VertexScheme {
+std::pair<VertexId, VertexId> ends(const TetMesh& mesh, TetId t, std::size_t e) {
+  const auto& corners = mesh.corners(t);
+  return {corners[std::size_t(kEdgeCorners[e][0])], corners[std::size_t(kEdgeCorners[e][1])]};
+}
+
+/// The edges of a mesh. They are found again only if the connectivity is another one.
+struct Edges {
   struct Edge {
     VertexId from, to;
   };
-  IdVector<EdgeId, Edge> edges;
-  IdVector<TetId, std::array<EdgeId, 6>> edges_of;
+  IdVector<EdgeId, Edge> ends_of;
+  IdVector<TetId, std::array<EdgeId, 6>> of;
+  IdVector<TetId, std::array<VertexId, 4>> corners;
+
+  void find(const TetMesh& mesh) {
+    const auto all = mesh.tetrahedra();
+    if (corners.size() == mesh.n_tetrahedra() &&
+        std::all_of(all.begin(), all.end(), [&](TetId t) { return corners[t] == mesh.corners(t); }))
+      return;
+    ends_of = {}, of = IdVector<TetId, std::array<EdgeId, 6>>(mesh.n_tetrahedra()), corners = {};
+    const EdgeTable table(mesh, nullptr);
+    std::vector<EdgeId> number(6 * mesh.n_tetrahedra());
+    for (const TetId t : all) {
+      corners.push_back(mesh.corners(t));
+      for (std::size_t e = 0; e < 6; ++e) {
+        const auto [i, j] = ends(mesh, t, e);
+        EdgeId& id = number[*table.find(i, j)];
+        if (!id.valid()) {
+          id = EdgeId(ends_of.size());
+          ends_of.push_back({i, j});
+        }
+        of[t][e] = id;
+      }
+    }
+  }
+};
+
+/// ★0 and ★1 as sums over the parts of tetrahedra: ★1 of |e| |e*| over |e|², ★0 of its thirds, by the crossing.
+struct VertexScheme {
+  const IdVector<EdgeId, Edges::Edge>& edges;
+  const IdVector<TetId, std::array<EdgeId, 6>>& edges_of;
   IdVector<TetId, TetParts> parts;
   IdVector<EdgeId, double> star1;
   IdVector<VertexId, double> star0;
   double volume = 0;
 
-  explicit VertexScheme(const TetMesh& mesh)
-      : edges_of(mesh.n_tetrahedra()), parts(mesh.n_tetrahedra()), star0(mesh.n_vertices(), 0) {
-    const EdgeTable table(mesh, nullptr);
-    std::vector<EdgeId> number(6 * mesh.n_tetrahedra());
+  VertexScheme(const TetMesh& mesh, const Edges& of)
+      : edges(of.ends_of),
+        edges_of(of.of),
+        parts(mesh.n_tetrahedra()),
+        star1(edges.size(), 0),
+        star0(mesh.n_vertices(), 0) {
     for (const TetId t : mesh.tetrahedra()) {
       parts[t] = TetDuals(mesh, t).parts();
       for (std::size_t e = 0; e < 6; ++e) {
         const auto [i, j] = ends(mesh, t, e);
-        EdgeId& id = number[*table.find(i, j)];
-        if (!id.valid()) {
-          id = EdgeId(edges.size());
-          edges.push_back({i, j});
-          star1.push_back(0);
-        }
-        edges_of[t][e] = id;
+        const EdgeId id = edges_of[t][e];
         const double v = parts[t].edges[e].volume, along = parts[t].along[e];
         star1[id] += v / parts[t].square[e];
         star0[i] += v * along / 3, star0[j] += v * (1 - along) / 3;
         volume += v / 3;
       }
     }
-  }
-  static std::pair<VertexId, VertexId> ends(const TetMesh& mesh, TetId t, std::size_t e) {
-    const auto& corners = mesh.corners(t);
-    return {corners[std::size_t(kEdgeCorners[e][0])], corners[std::size_t(kEdgeCorners[e][1])]};
   }
 };
 
@@ -73,7 +99,7 @@ Gradient pulled_back(const TetMesh& mesh, const VertexScheme& dec, const Adjoint
   for (const TetId t : mesh.tetrahedra()) {
     TetParts slopes;
     for (std::size_t e = 0; e < 6; ++e) {
-      const auto [i, j] = VertexScheme::ends(mesh, t, e);
+      const auto [i, j] = ends(mesh, t, e);
       const double volume = dec.parts[t].edges[e].volume, along = dec.parts[t].along[e],
                    square = dec.parts[t].square[e];
       const double by_star1 = by.star1[dec.edges_of[t][e]], at_i = by.star0[i] / 3, at_j = by.star0[j] / 3;
@@ -104,12 +130,13 @@ class TetVertexError final : public DiscretizationError {
  public:
   [[nodiscard]] std::vector<double> errors(const TetMesh& mesh, std::vector<Gradient>* gradients,
                                            Executor* executor) const override {
-    const VertexScheme dec(mesh);
+    const auto kept = kept_.take();
+    kept->edges.find(mesh);
+    const VertexScheme dec(mesh, kept->edges);
     std::vector<bool> given;
     for (const std::uint8_t on_boundary : boundary_vertices(mesh)) given.push_back(on_boundary != 0);
     const PointSystem points = vertex_system(dec, given);
-    const auto matrix = last_.take();
-    if (!matrix->factor(points.n_unknowns(), points.lower())) return {};
+    if (!kept->matrix.factor(points.n_unknowns(), points.lower())) return {};
     if (gradients != nullptr) gradients->clear();
     std::vector<double> sums;
     const FieldFrame frame = field_frame(mesh);
@@ -118,7 +145,7 @@ class TetVertexError final : public DiscretizationError {
       std::optional<Adjoint> by;
       if (gradients != nullptr) by.emplace(mesh.n_vertices(), dec.edges.size());
       sums.push_back(sum_over(fields, by ? &*by : nullptr, executor, [&](const Fields& block, Adjoint* part) {
-        return vertex_error(mesh, dec, {points, *matrix}, block, part);
+        return vertex_error(mesh, dec, {points, kept->matrix}, block, part);
       }));
       if (by) gradients->push_back(pulled_back(mesh, dec, *by));
     }
@@ -126,7 +153,11 @@ class TetVertexError final : public DiscretizationError {
   }
 
  private:
-  mutable Lender<Cholesky> last_;  // which keeps the order of elimination
+  struct Kept {
+    Edges edges;
+    Cholesky matrix;  // with its order of elimination
+  };
+  mutable Lender<Kept> kept_;
 };
 
 }  // namespace

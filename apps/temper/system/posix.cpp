@@ -45,8 +45,8 @@ void prepare_process() {
 #ifdef __GLIBC__
   // Arrays of a large mesh that are freed after reading go back to the system. Smaller ones, which steps need again and
   // again, do not: the system clears each page that it gives out.
-  mallopt(M_MMAP_THRESHOLD, 8 << 20);
-  mallopt(M_TRIM_THRESHOLD, 64 << 20);
+  mallopt(M_MMAP_THRESHOLD, 16 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
   std::signal(SIGPIPE, SIG_IGN);  // and so is a pipe without a reader

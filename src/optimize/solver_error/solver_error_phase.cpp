@@ -114,8 +114,7 @@ void SolverErrorPhase::add_gradient_of_energy(double factor, Gradient& gradient)
       const VertexId v(i);
       if (mesh_.is_isolated(v) || !patch.gather(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, v)) continue;
       if (!std::isfinite(patch.value(mesh_.point(v)))) continue;
-      const auto [x, y, w] = patch.derivatives().gradient;
-      add(gradient[v], factor, {x, y, w});
+      add(gradient[v], factor, patch.gradient());
     }
   });
 }
