@@ -136,6 +136,9 @@ const FormatRow& recognize(const std::string& path, std::string_view beginning, 
   if (is_binary_stl(beginning, bytes)) return *find_row("stl");
   if (const std::string known = recognize_unsupported(beginning); !known.empty())
     fail(ErrorCode::unsupported, path, "is ", known);
+  if (io::suffix_length(".stl", path, true) > 0) {
+    if (const std::string fault = fault_of_stl(beginning, bytes); !fault.empty()) fail(ErrorCode::syntax, path, fault);
+  }
   std::string names;
   for (const Format& format : kFormats) names += text(names.empty() ? "" : ", ", format.description);
   fail(ErrorCode::syntax, path, "is none of the formats that temper reads: ", names);

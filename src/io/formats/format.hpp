@@ -201,6 +201,8 @@ void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
 [[nodiscard]] std::string recognize_unsupported(std::string_view beginning);
 /// Says whether a file of this size is a binary STL file, which begins with any title.
 [[nodiscard]] bool is_binary_stl(std::string_view beginning, std::uint64_t bytes);
+/// Says what is wrong with STL that was not recognized, because it was cut; empty if it seems to be another file.
+[[nodiscard]] std::string fault_of_stl(std::string_view beginning, std::uint64_t bytes);
 
 // --- weights of formats without a place for them ---------------------------------------------------
 /// PATH.weights.csv

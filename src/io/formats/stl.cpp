@@ -126,6 +126,21 @@ bool is_binary_stl(std::string_view beginning, std::uint64_t bytes) {
   return n > 0 && bytes == kStlHeader + kStlTriangle * n;
 }
 
+std::string fault_of_stl(std::string_view beginning, std::uint64_t bytes) {
+  constexpr std::uint64_t kLetters = 0x20202020;  // a text has at least this number of triangles
+  const std::uint64_t n = bytes < kStlHeader ? 0 : little_endian(beginning.substr(kStlTitle, 4));
+  if (n > 0 && n < kLetters) {
+    const std::uint64_t wanted = kStlHeader + kStlTriangle * n;
+    const std::string expected = text("expected ", wanted, " bytes for the ", n, " triangles of binary STL, found ");
+    if (bytes > wanted) return text(expected, bytes);
+    return text(expected, "the end of the file after ", bytes, ", in triangle ",
+                (bytes - kStlHeader) / kStlTriangle + 1);
+  }
+  if (beginning.substr(0, 5) == "solid") return "expected 'facet' or 'endsolid' in the line after 'solid'";
+  return bytes < kStlHeader ? text("expected the ", kStlHeader, " bytes with which binary STL begins, found ", bytes)
+                            : std::string();
+}
+
 bool sniff_stl(std::string_view head) {
   Scanner scanner("", head, '\0');
   if (scanner.peek() != "solid") return false;

@@ -158,6 +158,16 @@ TEST_F(FilesOfSurfaces, TextAndBinaryStlGiveTheSameMesh) {
   ASSERT_TRUE(mesh) << mesh.error().what();
   EXPECT_EQ(mesh->mesh.n_triangles(), torus.triangles.size());
   EXPECT_FALSE(write(path("out.stl"), *one)) << "STL is only read";
+  const auto expected = [&](const std::string& found) {
+    return "cut.stl: expected 6384 bytes for the 126 triangles of binary STL, found " + found;
+  };
+  EXPECT_EQ(error_of("cut.stl", binary.substr(0, 1000)), expected("the end of the file after 1000, in triangle 19"));
+  EXPECT_EQ(error_of("cut.stl", binary + "xy"), expected("6386"));
+  EXPECT_EQ(error_of("cut.stl", binary.substr(0, 50)),
+            "cut.stl: expected the 84 bytes with which binary STL begins, found 50");
+  EXPECT_EQ(error_of("cut.stl", "solid thing\n"), "cut.stl: expected 'facet' or 'endsolid' in the line after 'solid'");
+  EXPECT_EQ(error_of("cut.stl", text.substr(0, 2000)).substr(0, 11), "cut.stl:82:");
+  EXPECT_EQ(error_of("cut.bin", binary.substr(0, 1000)).substr(0, 35), "cut.bin: is none of the formats tha");
 }
 
 TEST_F(FilesOfSurfaces, BadFilesAreNamed) {
