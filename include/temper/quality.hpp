@@ -40,17 +40,19 @@ struct QualityOptions {
 struct WorstTriangle {
   TriangleId triangle;
   std::array<VertexId, 3> vertices;
-  Vec2 at;               ///< Centroid; on the sphere its longitude and latitude [degrees]
-  double h_over_l = 0;   ///< Least h/ℓ of its three edges
-  double angle_deg = 0;  ///< Largest of its three angles
-  std::string why;       ///< "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"
+  Vec2 at;                       ///< Centroid; on the sphere its longitude and latitude [degrees]
+  double h_over_l = 0;           ///< Least h/ℓ of its three edges
+  double angle_deg = 0;          ///< Largest of its three angles
+  std::string why;               ///< "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"
+  std::optional<double> z = {};  ///< The third coordinate of the centroid, on a curved surface
 };
 [[nodiscard]] const ReportTable& table_of(const WorstTriangle*);
 
 /// An edge as a place.
 struct EdgePlace {
   std::array<VertexId, 2> vertices;
-  Vec2 at;  ///< Midpoint; on the sphere its longitude and latitude [degrees]
+  Vec2 at;                       ///< Midpoint; on the sphere its longitude and latitude [degrees]
+  std::optional<double> z = {};  ///< The third coordinate of the midpoint, on a curved surface
 };
 [[nodiscard]] const ReportTable& table_of(const EdgePlace*);
 

@@ -21,6 +21,8 @@ class EdgePlace(Record):
     """Its vertices."""
     at: tuple[float, float]
     """Its midpoint; on a sphere longitude and latitude [degrees]."""
+    z: float | None
+    """Third coordinate of the midpoint, on a curved surface."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -60,6 +62,8 @@ class WorstTriangle(Record):
     """Largest of its three angles [degrees]."""
     why: str
     """The reason, such as "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"."""
+    z: float | None
+    """Third coordinate of the centroid, on a curved surface."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

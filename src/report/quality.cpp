@@ -32,7 +32,8 @@ const ReportTable& table_of(const WorstTriangle*) {
        {"h_over_l", "Least h/ℓ of its three edges", "", &WorstTriangle::h_over_l},
        {"angle_deg", "Largest of its three angles", "degrees", &WorstTriangle::angle_deg},
        {"why", "The reason, such as \"orthocenter outside across edge 3-9: angle of 138.3° at vertex 10\"", "",
-        [](const WorstTriangle& w) { return NumberedText{w.why}; }}});
+        [](const WorstTriangle& w) { return NumberedText{w.why}; }},
+       {"z", "Third coordinate of the centroid, on a curved surface", "", &WorstTriangle::z, ShownIn::if_any}});
   return table;
 }
 
@@ -40,7 +41,8 @@ const ReportTable& table_of(const EdgePlace*) {
   static const ReportTable table = report_table<EdgePlace>(
       "EdgePlace", "An edge as a place.",
       {{"vertices", "Its vertices", "", &EdgePlace::vertices},
-       {"at", "Its midpoint; on a sphere longitude and latitude [degrees]", "", &EdgePlace::at}});
+       {"at", "Its midpoint; on a sphere longitude and latitude [degrees]", "", &EdgePlace::at},
+       {"z", "Third coordinate of the midpoint, on a curved surface", "", &EdgePlace::z, ShownIn::if_any}});
   return table;
 }
 

@@ -10,6 +10,10 @@ namespace temper::app {
 namespace {
 
 std::string coordinates_text(Vec2 at) { return fmt::format("{:.9g}, {:.9g}", at.x, at.y); }
+std::string coordinates_text(Vec3 at);
+std::string coordinates_text(const EdgePlace& place) {
+  return place.z ? coordinates_text(Vec3{place.at.x, place.at.y, *place.z}) : coordinates_text(place.at);
+}
 std::string coordinates_text(Vec3 at) { return fmt::format("{:.9g}, {:.9g}, {:.9g}", at.x, at.y, at.z); }
 
 /// The duals that a criterion does not allow, and the worst.
@@ -22,12 +26,12 @@ struct DualsOf {
 };
 template <class Text>
 std::string with_duals(const Quality& q, Criterion criterion, const Text& text) {
-  const auto& [vertices, at] = q.min_coefficient_place;
+  const EdgePlace& place = q.min_coefficient_place;
   if (criterion == Criterion::coefficients)
-    return text(DualsOf<2, Vec2>{q.non_regular_edges, q.negative_boundary_duals, q.negative_region_coefficients,
-                                 q.min_coefficient, vertices, at});
-  return text(DualsOf<2, Vec2>{q.nonpositive_distances, q.nonpositive_boundary_distances,
-                               q.nonpositive_region_distances, q.min_coefficient, vertices, at});
+    return text(DualsOf<2, EdgePlace>{q.non_regular_edges, q.negative_boundary_duals, q.negative_region_coefficients,
+                                      q.min_coefficient, place.vertices, place});
+  return text(DualsOf<2, EdgePlace>{q.nonpositive_distances, q.nonpositive_boundary_distances,
+                                    q.nonpositive_region_distances, q.min_coefficient, place.vertices, place});
 }
 template <class Text>
 std::string with_duals(const tets::Quality& q, Criterion criterion, const Text& text) {

@@ -144,17 +144,21 @@ Vec3 shown_place(const SurfaceInput& input, TriangleId t, Vec2 /*at*/) {
   return (1.0 / 3) * (a.position() + b.position() + c.position());
 }
 
+std::pair<TriangleId, double> element_and_angle(const WorstTriangle& w) { return {w.triangle, w.angle_deg}; }
+std::pair<tets::TetId, double> element_and_angle(const tets::WorstTet& w) { return {w.tetrahedron, w.dihedral_deg}; }
+
 template <class Subject>
 std::string worst_text(const typename Subject::Quality& quality, const InputOf<Subject>& input,
                        const TextStyle& style) {
   if (quality.worst.empty()) return "";
   std::string text = fmt::format("\nworst {}\n", Subject::elements);
-  for (const auto& [element, vertices, at, h_over_l, angle, why] : quality.worst) {
+  for (const auto& worst : quality.worst) {
+    const auto [element, angle] = element_and_angle(worst);
     text += fmt::format("  {} ({}) at {}: h/l {:.4g}, largest {} {:.5g}\n", input.element_number(element),
-                        input.vertex_numbers(vertices, " "), place_text(shown_place(input, element, at)), h_over_l,
-                        Subject::angle, angle);
+                        input.vertex_numbers(worst.vertices, " "), place_text(shown_place(input, element, worst.at)),
+                        worst.h_over_l, Subject::angle, angle);
     text += why_text(
-        why, [&input](VertexId v) { return input.vertex_number(v); }, style);
+        worst.why, [&input](VertexId v) { return input.vertex_number(v); }, style);
   }
   return text;
 }

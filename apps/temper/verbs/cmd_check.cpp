@@ -143,11 +143,13 @@ void count_once(tets::Quality& measured, const tets::MetricMesh& pieces, const t
   measured.regions = regions.size();
 }
 
+TriangleId element_of(const WorstTriangle& worst) { return worst.triangle; }
+tets::TetId element_of(const tets::WorstTet& worst) { return worst.tetrahedron; }
+
 /// Counts and places of a mesh itself, for measures of its pieces.
 template <class Subject>
 void as_in_file(typename Subject::Quality& measured, const MetricViewOf<Subject>& view) {
-  for (auto& [element, vertices, at, h_over_l, angle, why] : measured.worst)
-    at = view.pieces.metric(element).from_metric(at);
+  for (auto& worst : measured.worst) worst.at = view.pieces.metric(element_of(worst)).from_metric(worst.at);
   move_back(measured.min_coefficient_place, view.pieces);
   measured.vertices = view.plain.n_vertices();
   count_once(measured, view.pieces, view.plain);

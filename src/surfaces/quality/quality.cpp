@@ -60,7 +60,7 @@ class Report {
     if (least_dual_.element.valid()) {
       const auto [a, b] = ends_of(least_dual_.element);
       const Vec3 at = 0.5 * (mesh_.position(a) + mesh_.position(b));
-      q.min_coefficient_place = {{a, b}, {at.x, at.y}};
+      q.min_coefficient_place = {{a, b}, {at.x, at.y}, at.z};
     }
     return q;
   }
@@ -108,7 +108,7 @@ class Report {
     const Corners p = mesh_.points(t);
     WorstTriangle worst = temper::describe(mesh_.connectivity(), t, measure_triangle(p), squared_lengths(p));
     const Vec3 at = (1.0 / 3) * (p[0].position() + p[1].position() + p[2].position());
-    worst.at = {at.x, at.y};
+    worst.at = {at.x, at.y}, worst.z = at.z;
     return worst;
   }
 

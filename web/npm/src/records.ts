@@ -7,6 +7,8 @@ export interface EdgePlace {
   vertices: [number, number];
   /** Its midpoint; on a sphere longitude and latitude [degrees]. */
   at: [number, number];
+  /** Third coordinate of the midpoint, on a curved surface. */
+  z: number | null;
 }
 
 /** Counts in equal bins over [low, high]. Each bin includes its lower end. Values outside go to the end bins. */
@@ -40,6 +42,8 @@ export interface WorstTriangle {
   angle_deg: number;
   /** The reason, such as "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10". */
   why: string;
+  /** Third coordinate of the centroid, on a curved surface. */
+  z: number | null;
 }
 
 /** The result of `quality`: counts decided exactly, margins and energies in doubles. On a sphere lengths and angles are measured along arcs. */
