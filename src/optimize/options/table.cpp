@@ -339,11 +339,11 @@ constexpr OptionRow kConnectivityRows[] = {
         "Treatment of triangles that stay invalid. none: nothing. perturb: sweep again with random moves, and find "
         "weights by a linear program. vertices: also remove and insert vertices. The best result is kept",
         {.needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
-    row<&Options::repair_trials>(
-        "repair_trials",
-        "Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as 20, and so does an edit "
-        "of a curved surface",
-        {.cells = CellKinds::all_triangles, .needs = {{{"repair", "perturb|vertices"}}}}),
+    row<&Options::repair_trials>("repair_trials",
+                                 "Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as "
+                                 "20, and an edit of a curved "
+                                 "surface as 33",
+                                 {.cells = CellKinds::all_triangles, .needs = {{{"repair", "perturb|vertices"}}}}),
     row<&Options::boundary>(
         "boundary",
         "Treatment of the boundary. keep: it stays bit for bit. slide: vertices may move along straight pieces; "
