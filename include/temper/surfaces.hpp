@@ -178,7 +178,7 @@ struct BuiltSurface {
 // --- quality --------------------------------------------------------------------------------------------------------
 
 /// The report on a surface. No triangle of a surface is inverted. Energies and SolverMeasures are not measured: they
-/// keep the values that they have without a mesh. Places of the report are x and y.
+/// keep the values that they have without a mesh. Places have z.
 struct Quality : temper::Quality {};
 [[nodiscard]] const ReportTable& table_of(const Quality*);
 /// The rows of temper::quality_measures() that are measured on surfaces.
@@ -335,6 +335,12 @@ struct IntrinsicWeights {
 
 // --- optimization ---------------------------------------------------------------------------------------------------
 
+/// The mesh to keep if the run ends now.
+struct BestSoFar {
+  const SurfaceMesh& mesh;
+  const IdVector<VertexId, VertexId>& vertices;  ///< Numbers of the vertices, as in SurfaceReport::vertices
+};
+
 struct SurfaceOptions {
   /// The run ends when the mesh meets it. A run for another criterion than well_centered tries that one first, because
   /// its coefficients are larger.
@@ -353,9 +359,10 @@ struct SurfaceOptions {
   bool may_slide = false;
   /// Repairs end after this number of edits in a row that do not help. Usually fewer than one edit of 20 helps.
   int repair_trials = 600;
-  double time_limit = 0;                 ///< Time limit of the run [s]; 0: none
-  std::function<bool()> must_stop = {};  ///< If it says yes, the run ends with the best mesh so far
-  Observer observer = {};                ///< Observer of the progress after each round, which may stop the run
+  double time_limit = 0;                       ///< Time limit of the run [s]; 0: none
+  std::function<bool()> must_stop = {};        ///< If it says yes, the run ends with the best mesh so far
+  Observer observer = {};                      ///< Observer of the progress after each round, which may stop the run
+  BestListenerOf<BestSoFar> best_so_far = {};  ///< Listener that may get the best mesh so far, after each round
   /// Start of the time limit, as in temper::OptimizeHooks. Absent: the time of the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
 };

@@ -239,19 +239,6 @@ std::string error_text(const ErrorRecord<Subject>& record, ErrorRows rows, const
   return all ? text : text + "\n--details prints all fields and rows\n";
 }
 
-std::string error_comparison_text(const ErrorReport& before, const ErrorReport& after, const TextStyle& style) {
-  const auto ratios = error_ratios(after, before);
-  std::string text = row_text("mean relative error", {"before", "after", "ratio"});
-  for (const ErrorMeasure& measure : error_measures()) {
-    const double from = measure.of(geometric_mean(before.fields)), to = measure.of(geometric_mean(after.fields));
-    const std::string ratio =
-        ratios ? number_text(measure.of(geometric_mean(*ratios)), Shown::ratios, style) : std::string("-");
-    text += row_text(label_of(measure, style),
-                     {number_text(from, Shown::errors, style), number_text(to, Shown::errors, style), ratio});
-  }
-  return text;
-}
-
 namespace {
 
 /// The refined family.
@@ -293,12 +280,6 @@ std::string error_json(const ErrorRecord<Subject>& record) {
   return dump(json);
 }
 
-#define TEMPER_MAKE(S)                                                                 \
-  template std::string error_text(const ErrorRecord<S>&, ErrorRows, const TextStyle&); \
-  template std::string error_json(const ErrorRecord<S>&);
-TEMPER_EACH_SUBJECT(TEMPER_MAKE)
-#undef TEMPER_MAKE
-
 std::string edge_errors_csv(const ErrorReport& report, const Input& input) {
   const DecComplex complex = dec_operators(input.mesh());
   const auto point = [&](VertexId v) { return input.points.empty() ? std::size_t{v.index} : input.points[v.index]; };
@@ -311,21 +292,61 @@ std::string edge_errors_csv(const ErrorReport& report, const Input& input) {
   return text;
 }
 
-SolverErrors::SolverErrors(const Mesh& input, Executor* executor) {
-  options_.frame = field_frame(input);
-  options_.executor = executor;
-  before_ = after_ = measured(input);
+namespace {
+
+MeasureErrorsOptions options_in(const FieldFrame& frame, Executor* executor) {
+  MeasureErrorsOptions options;
+  options.frame = frame;
+  options.executor = executor;
+  return options;
+}
+tets::MeasureErrorsOptions options_in(const tets::FieldFrame& frame, Executor* /*executor*/) {
+  return {.frame = frame};
 }
 
-ErrorReport SolverErrors::measured(const Mesh& mesh) const { return or_fail(measure_errors(mesh, options_)); }
+}  // namespace
 
-void SolverErrors::measure_result(const Mesh& result) { after_ = measured(result); }
+template <class Subject>
+SolverErrors<Subject>::SolverErrors(const typename Subject::Mesh& input, Executor* executor) : executor_(executor) {
+  before_ = after_ = measured(input, field_frame(input));
+}
 
-std::string SolverErrors::text(const TextStyle& style) const { return error_comparison_text(before_, after_, style); }
+template <class Subject>
+typename Subject::ErrorReport SolverErrors<Subject>::measured(const typename Subject::Mesh& mesh,
+                                                              const decltype(Report::frame)& frame) const {
+  return or_fail(measure_errors(mesh, options_in(frame, executor_)));
+}
 
-std::string SolverErrors::json() const {
+template <class Subject>
+void SolverErrors<Subject>::measure_result(const typename Subject::Mesh& result) {
+  after_ = measured(result, before_.frame);
+}
+
+template <class Subject>
+std::string SolverErrors<Subject>::text(const TextStyle& style) const {
+  const auto ratios = error_ratios(after_, before_);
+  std::string text = row_text("mean relative error", {"before", "after", "ratio"});
+  for (const ErrorMeasure& measure : error_measures()) {
+    const double from = measure.of(geometric_mean(before_.fields)), to = measure.of(geometric_mean(after_.fields));
+    const std::string ratio =
+        ratios ? number_text(measure.of(geometric_mean(*ratios)), Shown::ratios, style) : std::string("-");
+    text += row_text(label_of(measure, style),
+                     {number_text(from, Shown::errors, style), number_text(to, Shown::errors, style), ratio});
+  }
+  return text;
+}
+
+template <class Subject>
+std::string SolverErrors<Subject>::json() const {
   const Json json = {{"before", error_report_json(before_)}, {"after", error_report_json(after_)}};
   return json.dump();
 }
+
+#define TEMPER_MAKE(S)                                                                 \
+  template std::string error_text(const ErrorRecord<S>&, ErrorRows, const TextStyle&); \
+  template std::string error_json(const ErrorRecord<S>&);                              \
+  template class SolverErrors<S>;
+TEMPER_EACH_SUBJECT(TEMPER_MAKE)
+#undef TEMPER_MAKE
 
 }  // namespace temper::app

@@ -41,28 +41,28 @@ struct ProblemRecord {
 [[nodiscard]] std::string problem_text(const ProblemRecord& record);
 [[nodiscard]] std::string problem_json(const ProblemRecord& record);
 
-/// Geometric means of the errors of two meshes, one line per measure: `temper optimize --measure-errors`.
-[[nodiscard]] std::string error_comparison_text(const ErrorReport& before, const ErrorReport& after,
-                                                const TextStyle& style);
 /// One line per edge: from,to,star1,error. Points count from 0, in the order of the file's arrays.
 [[nodiscard]] std::string edge_errors_csv(const ErrorReport& report, const Input& input);
 
 /// The errors of solvers before and after a run: `temper optimize --measure-errors`.
+template <class Subject>
 class SolverErrors {
  public:
   /// Measures the input; the result is measured in the frame of the input, too.
-  SolverErrors(const Mesh& input, Executor* executor);
+  SolverErrors(const typename Subject::Mesh& input, Executor* executor);
 
-  void measure_result(const Mesh& result);
+  void measure_result(const typename Subject::Mesh& result);
 
+  /// Geometric means of the errors of both meshes, one line per measure.
   [[nodiscard]] std::string text(const TextStyle& style) const;
   [[nodiscard]] std::string json() const;
 
  private:
-  [[nodiscard]] ErrorReport measured(const Mesh& mesh) const;
+  using Report = typename Subject::ErrorReport;
+  [[nodiscard]] Report measured(const typename Subject::Mesh& mesh, const decltype(Report::frame)& frame) const;
 
-  MeasureErrorsOptions options_;
-  ErrorReport before_, after_;
+  Executor* executor_;
+  Report before_, after_;
 };
 
 }  // namespace temper::app

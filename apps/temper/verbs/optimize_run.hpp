@@ -4,9 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "console.hpp"
 #include "files/input.hpp"
 #include "reports/quality_report.hpp"
 #include "system/system.hpp"
+#ifdef TEMPER_WITH_ERRORS
+#include "reports/error_report.hpp"
+#endif
 #include "verbs/optimize_settings.hpp"
 #include "verbs/progress_line.hpp"
 #include "verbs/save_every.hpp"
@@ -34,6 +38,29 @@ void warn(RunResults<Subject>& results, std::span<const std::string> warnings) {
   print_warnings(warnings);
   results.warnings.insert(results.warnings.end(), warnings.begin(), warnings.end());
 }
+
+/// The errors of solvers before and after a run, for --measure-errors.
+template <class Subject>
+class MeasuredErrors {
+ public:
+#ifdef TEMPER_WITH_ERRORS
+  void begin(const OptimizeSettings& s, const typename Subject::Mesh& mesh, Executor* executor) {
+    if (s.measure_errors) errors_.emplace(mesh, executor);
+  }
+  void end(const typename Subject::Mesh& mesh, RunResults<Subject>& results) {
+    if (!errors_) return;
+    errors_->measure_result(mesh);
+    results.errors_text = errors_->text(text_style());
+    results.errors_json = errors_->json();
+  }
+
+ private:
+  std::optional<SolverErrors<Subject>> errors_;
+#else
+  void begin(const OptimizeSettings&, const typename Subject::Mesh&, Executor*) {}
+  void end(const typename Subject::Mesh&, RunResults<Subject>&) {}
+#endif
+};
 
 struct TraceFile {
   io::TextStream stream;
@@ -72,6 +99,7 @@ void release_mesh(InputOf<Subject>& input, RunResults<Subject>& results) {
 [[nodiscard]] inline const auto& parts_of(const OptimizeReport& report) { return report.vertices; }
 [[nodiscard]] inline const auto& parts_of(const BestSoFar& best) { return best.vertices; }
 [[nodiscard]] inline const auto& parts_of(const surfaces::SurfaceReport& report) { return report.vertices; }
+[[nodiscard]] inline const auto& parts_of(const surfaces::BestSoFar& best) { return best.vertices; }
 [[nodiscard]] inline const auto& parts_of(const tets::OptimizeReport& report) { return report.origins; }
 [[nodiscard]] inline const auto& parts_of(const tets::BestSoFar& best) { return best.origins; }
 
@@ -92,6 +120,16 @@ template <class Subject>
   return comparison_text(results.before, results.after);
 }
 
+/// The listener of a run that saves its best mesh.
+template <class Subject>
+auto saver_of_best(const OptimizeSettings& s, const InputOf<Subject>& input, Executor* threads) {
+  return saver(s, [&s, &input, threads](const auto& best) {
+    io::MeshFile file = input.file;
+    io::update(file, input.loaded, best.mesh, parts_of(best), with_threads(s.data, threads));
+    return save(s, file, threads);
+  });
+}
+
 /// The hooks that all runs have. `line` shows the progress.
 template <class Hooks, class Subject>
 void set_hooks(Hooks& hooks, ProgressLine& line, const OptimizeSettings& s, const InputOf<Subject>& input,
@@ -102,12 +140,7 @@ void set_hooks(Hooks& hooks, ProgressLine& line, const OptimizeSettings& s, cons
     line.show(progress);
     return interrupted() ? Continue::no : Continue::yes;
   };
-  if (!s.save_every) return;
-  hooks.best_so_far = saver(s, [&s, &input, threads](const auto& best) {
-    io::MeshFile file = input.file;
-    io::update(file, input.loaded, best.mesh, parts_of(best), with_threads(s.data, threads));
-    return save(s, file, threads);
-  });
+  if (s.save_every) hooks.best_so_far = saver_of_best(s, input, threads);
 }
 
 }  // namespace temper::app

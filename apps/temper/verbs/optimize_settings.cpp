@@ -109,10 +109,8 @@ void add_rare(Command& command, OptimizeSettings& s) {
       "file. Options of the command line override it.");
   command.add_flag("--details", s.details, "Print all measures, energies, sizes and notes.");
 #ifdef TEMPER_WITH_ERRORS
-  command
-      .add_flag("--measure-errors", s.measure_errors,
-                "Measure the errors of solvers before and after, as temper errors does, and print them.")
-      .cells = CellKinds::triangles;
+  command.add_flag("--measure-errors", s.measure_errors,
+                   "Measure the errors of solvers before and after, as temper errors does, and print them.");
 #endif
   add_projection(command, s.projection);
   add_heights(command, s.heights);
@@ -127,8 +125,7 @@ void add_rare(Command& command, OptimizeSettings& s) {
               "Number of threads of each process. 0 uses all threads of the machine, or all that the process may use.");
   add_number(
       command, "--save-every", s.save_every, kNotNegative,
-      "Write the best mesh so far to OUT during the run, at most once in this many seconds. 0 writes every new one.")
-      .cells = CellKinds::both;
+      "Write the best mesh so far to OUT during the run, at most once in this many seconds. 0 writes every new one.");
   for (std::size_t i = first; i < command.options().size(); ++i) command.option_at(i).rare = true;
   for (const char* name : {"--format", "--cells", "--encoding", "--no-triangle-quality"})
     command.option(name).rare = true;

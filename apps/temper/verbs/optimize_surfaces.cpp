@@ -13,7 +13,7 @@ void prepare(const Command& /*command*/, const OptimizeSettings& s, const Surfac
   warn(results, warning_of_replaced_input(s));
 }
 
-void improve(const OptimizeSettings& s, SurfaceInput& input, const RunFiles& /*files*/, RunResults<Surfaces>& results) {
+void improve(const OptimizeSettings& s, SurfaceInput& input, const RunFiles& files, RunResults<Surfaces>& results) {
   Expected<surfaces::SurfaceOptions> options = surfaces::surface_options(s.options);
   if (!options) throw as_failure(spell_options(options.error()));
   catch_interrupts();
@@ -26,14 +26,18 @@ void improve(const OptimizeSettings& s, SurfaceInput& input, const RunFiles& /*f
     line.show(progress);
     return Continue::yes;
   };
+  if (s.save_every) options->best_so_far = saver_of_best(s, input, files.threads);
   results.second = input.mesh();
   results.improved = &results.second;
   results.original = &input.mesh();
+  MeasuredErrors<Surfaces> errors;
+  errors.begin(s, input.mesh(), files.threads);
   Expected<surfaces::SurfaceReport> report = optimize(results.second, *clp_solver(), *options);
   if (!report) throw as_failure(spell_options(report.error()));
   results.report = *std::move(report);
   results.before = results.report.before;
   results.after = results.report.after;
+  errors.end(results.second, results);
   results.outcomes = judge(s.requirements, results.after, criterion_of_target(s.target));
 }
 

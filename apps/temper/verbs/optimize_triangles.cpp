@@ -19,9 +19,6 @@
 #include "temper/regularity.hpp"
 #include "temper/solvers.hpp"
 #include "verbs/optimize_run.hpp"
-#ifdef TEMPER_WITH_ERRORS
-#include "reports/error_report.hpp"
-#endif
 
 namespace temper::app {
 namespace {
@@ -49,15 +46,6 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
   for (std::string& note : report->notes) note = spell_options(note);
   return *std::move(report);
 }
-
-#ifdef TEMPER_WITH_ERRORS
-/// The results of --measure-errors.
-void error_result(SolverErrors& errors, const Mesh& mesh, RunResults<Triangles>& results) {
-  errors.measure_result(mesh);
-  results.errors_text = errors.text(text_style());
-  results.errors_json = errors.json();
-}
-#endif
 
 /// The tracer of the trace, if there is one.
 Tracer tracer_of(const OptimizeSettings& s, const RunFiles& files, const Input& input) {
@@ -163,19 +151,13 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
     flush_output();
   });
   const Tracer tracer = tracer_of(s, files, input);
-#ifdef TEMPER_WITH_ERRORS
-  std::optional<SolverErrors> errors;
-  on_first_rank([&] {
-    if (s.measure_errors) errors.emplace(*seen, files.threads);
-  });
-#endif
+  MeasuredErrors<Triangles> errors;
+  on_first_rank([&] { errors.begin(s, *seen, files.threads); });
   results.report = run_library(s, input, mesh, files.threads, tracer, viewer, !measuring.brief);
   tensors.resize(std::min<std::size_t>(tensors.size(), 1));  // all have it if the report has none
   look_at(results.report.triangle_tensors.empty() ? tensors : results.report.triangle_tensors,
           results.report.corner_weights);
-#ifdef TEMPER_WITH_ERRORS
-  if (errors) error_result(*errors, *seen, results);
-#endif
+  errors.end(*seen, results);
   if (files.trace != nullptr) files.trace->stream.write(trace_end(files.trace->events, mesh, input));
   if (measured && !viewer) results.after = quality(*seen, measuring);
   const bool all_regular = measured && results.after.non_regular_edges == 0;  // those that may not be flipped, too

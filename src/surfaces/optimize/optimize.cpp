@@ -115,6 +115,14 @@ double energy_of(const SurfaceMesh& mesh, double gamma) {
   return DraftEnergy(draft, gamma).value().lowered;
 }
 
+/// The mesh of a state as the user has it: creases are not constrained.
+SurfaceMesh without_creases(const State& state) {
+  SurfaceMesh mesh = state.mesh;
+  Mesh& connectivity = SurfaceEditor(mesh).connectivity();
+  for (const auto& [a, b] : state.creases) connectivity.set_constrained(connectivity.find_halfedge(a, b), false);
+  return mesh;
+}
+
 }  // namespace
 
 Turns turns_of(const SurfaceMesh& mesh, double sharp_deg) {
@@ -162,6 +170,14 @@ void Run::record(SweepRecord measured) const {
     report.stopped = Stopped::canceled;
 }
 
+void Run::offer(const State& found) {
+  if (!options.best_so_far) return;
+  if (!shown || found.bad < shown->bad) shown = found;
+  options.best_so_far([this](const std::function<void(const BestSoFar&)>& use) {
+    use({without_creases(*shown), shown->repairs > 0 ? shown->origins : IdVector<VertexId, VertexId>()});
+  });
+}
+
 void Run::move_all(State& state, bool with_weights) {
   State best = state;
   double gamma = kFirstGamma;
@@ -188,6 +204,7 @@ void Run::move_all(State& state, bool with_weights) {
     state.bad = bad(state.mesh);
     record({.energy = energy_of(state.mesh, gamma), .bad = state.bad, .flips = flips, .length_parameter = gamma});
     if (state.bad <= best.bad) best = state;
+    offer(best);
     gamma = std::max(kLastGamma, gamma * kGammaFactor);
   }
   state = std::move(best);
@@ -199,6 +216,7 @@ State Run::moved(const State& input, State best) {
     State changed = input;
     move_all(changed, with_weights);
     find_weights(changed);
+    offer(changed);
     if (changed.bad < best.bad) best = std::move(changed);
   }
   return best;
@@ -286,13 +304,11 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
     State held = run.best_of_limits(input, weighted, first);
     if (held.bad < best.bad) best = std::move(held);
   }
-  Mesh& result = SurfaceEditor(best.mesh).connectivity();
-  for (const auto& [a, b] : best.creases) result.set_constrained(result.find_halfedge(a, b), false);
   report.turns_before = report.turns_after = turns;
   report.after = report.before;
   report.objective_after = report.objective_before;
   if (best.bad < input.bad) {
-    mesh = std::move(best.mesh);
+    mesh = without_creases(best);
     report.after = quality(mesh);
     report.turns_after = turns_of(mesh, sharp);
     report.surface_distance = nearness.distance(mesh);

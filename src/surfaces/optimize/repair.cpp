@@ -63,6 +63,7 @@ void Run::repair(State& state) {
         if (std::optional<State> next = best_edit(*this, state, t, rings)) {
           state = *std::move(next);
           ++state.repairs;
+          offer(state);
           trials = 0;
           changed = true;
           break;
@@ -73,6 +74,7 @@ void Run::repair(State& state) {
     }
   }
   find_weights(state);
+  offer(state);
 }
 
 }  // namespace temper::surfaces

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "surfaces/optimize/draft.hpp"
@@ -41,13 +42,16 @@ struct Run {
   LpSolver& solver;
   SurfaceReport& report;
   TurnLimit limit = {};
-  std::size_t trials = 0;  ///< Of repairs, since the last one that helped
+  std::size_t trials = 0;           ///< Of repairs, since the last one that helped
+  std::optional<State> shown = {};  ///< For the listener, if there is one
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
   /// Asks the clock and the caller. Once the answer is yes, it stays, and the report has the reason.
   [[nodiscard]] bool must_stop() const;
   /// Puts a mesh into the history, and shows the progress.
   void record(SweepRecord measured) const;
+  /// Shows the best mesh so far to the listener. It is `found`, if this has the fewest bad cells.
+  void offer(const State& found);
   [[nodiscard]] double seconds() const;
   [[nodiscard]] std::size_t bad(const SurfaceMesh& mesh) const {
     return cells_at_violations(mesh, options.criterion).size();

@@ -634,8 +634,7 @@ TEST_F(OptimizeTetrahedra, OptionsForTrianglesAloneAreRefusedByNameAndNothingIsW
        "--set gamma=1 is for triangles alone. Next: leave it out; for tetrahedra there are energy, star, scheme, "},
       {{"--min-edge", "0.5"}, "--min-edge"},
       {{"--write", "t.jsonl"}, "--write t.jsonl"},
-      {{"--projection", "sphere"}, "--projection"},
-      {{"--measure-errors"}, "--measure-errors"}};
+      {{"--projection", "sphere"}, "--projection"}};
   for (const auto& [option, name] : refused) {
     std::vector<std::string> all = {"optimize", "in.vtu", "-o", "out.vtu"};
     all.insert(all.end(), option.begin(), option.end());

@@ -45,6 +45,13 @@ TEST_F(Surfaces, AreCheckedByTheMeasuresThatTheyHave) {
   const nlohmann::json json = nlohmann::json::parse(temper_ok({"check", "in.obj", "--json"}).out);
   EXPECT_EQ(json["triangles"], 320);
   EXPECT_FALSE(json.contains("energy"));
+  // A place has three coordinates: it is on the torus.
+  const auto expect_on_torus = [](const nlohmann::json& place) {
+    const double x = place["at"][0], y = place["at"][1], z = place["z"], away = std::hypot(x, y) - 1;
+    EXPECT_NEAR(std::hypot(away, z), 0.4, 0.06);
+  };
+  expect_on_torus(json["min_coefficient_place"]);
+  for (const nlohmann::json& worst : json["worst"]) expect_on_torus(worst);
   EXPECT_FALSE(json.contains("obtuse_triangles")) << "which is not measured";
   EXPECT_EQ(temper({"check", "in.obj", "--require", "outside=0"}).exit, 3);
   EXPECT_EQ(temper({"check", "in.obj", "--require", "obtuse_triangles=0"}).exit, 2);
@@ -70,6 +77,8 @@ TEST_F(Surfaces, BecomeWellCenteredNearTheInput) {
   write("options.json", read("report.json"));
   temper_ok({"optimize", "in.obj", "-o", "again.vtu", "--options", "options.json", "--quiet"});
   EXPECT_EQ(read("again.vtu"), bytes);
+  temper_ok({"optimize", "in.obj", "-o", "saved.vtu", "--save-every", "0", "--quiet"});
+  EXPECT_EQ(read("saved.vtu"), bytes);
 }
 
 TEST_F(Surfaces, OptionsHaveTheirEffect) {
@@ -184,6 +193,14 @@ TEST_F(Surfaces, HaveErrorsOfSolvers) {
   const Outcome linear = temper_ok({"errors", "in.obj", "--fields", "exact"});
   EXPECT_TRUE(contains(linear.out, "in.obj: 320 triangles, 154 bad (not well-centered); "));
   EXPECT_TRUE(contains(linear.out, "relative error, linear"));
+  const Outcome run = temper_ok({"optimize", "in.obj", "-o", "out.vtu", "--measure-errors", "--write", "report.json"});
+  EXPECT_TRUE(contains(run.out, "mean relative error"));
+  const nlohmann::json errors = read_json("report.json")["errors"];
+  EXPECT_EQ(errors["after"]["matrices"]["flux"]["negative"], 0);
+  EXPECT_EQ(errors["before"]["frame"], errors["after"]["frame"]);
+  EXPECT_EQ(nlohmann::json::parse(
+                temper_ok({"errors", "out.vtu", "--against", "in.obj", "--json"}).out)["against"]["report"]["errors"],
+            errors["before"]["errors"]);
 }
 
 TEST_F(Surfaces, AreExplainedAndDrawn) {

@@ -287,6 +287,21 @@ TEST(SurfaceOptimize, NoEdgeTurnsMoreThanTheSharpestOfTheInputAndFewAreSharp) {
   EXPECT_LE(sharp_after, sharp_before) << sharp_before << " then " << sharp_after;
 }
 
+TEST(SurfaceOptimize, FewEdgesAreSharpWhereARunWithoutALimitMakesMany) {
+  // With the limit there are 5, without it 43.
+  std::size_t sharp = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    SurfaceMesh mesh = shaken_torus(0.3, seed);
+    SurfaceOptions options;
+    options.crease_angle_deg = 40;
+    options.surface_distance = 0.05;
+    const SurfaceReport report = optimized(mesh, options);
+    EXPECT_EQ(report.violations_after, 0U);
+    sharp += report.turns_after.sharp;
+  }
+  EXPECT_LE(sharp, 15U);
+}
+
 TEST(SurfaceOptimize, BoundaryFixedVerticesAndConstrainedEdgesStayInThePlane) {
   const Mesh plane = *random_mesh({.vertices = 150, .seed = 8});
   test::SurfaceArrays arrays = test::lifted(plane);
@@ -667,6 +682,31 @@ TEST(SurfaceOptimize, TargetsOfDualsAreMet) {
     EXPECT_EQ(report.violations_after, 0U);
     EXPECT_TRUE(meets(mesh, criterion));
   }
+}
+
+TEST(SurfaceOptimize, ListenersGetTheBestMeshSoFar) {
+  SurfaceMesh mesh = test::mesh_of(shaken_box({5, 5, 5}, 0.25, 3)), last;
+  const SurfaceMesh input = mesh;
+  IdVector<VertexId, VertexId> vertices;
+  std::size_t least = cells_at_violations(mesh, Criterion::well_centered).size(), calls = 0;
+  SurfaceOptions options;
+  options.best_so_far = [&](const std::function<void(const std::function<void(const BestSoFar&)>&)>& best) {
+    best([&](const BestSoFar& now) {
+      const std::size_t bad = cells_at_violations(now.mesh, Criterion::well_centered).size();
+      EXPECT_LE(bad, least);
+      least = bad, last = now.mesh, vertices = now.vertices, ++calls;
+      for (const HalfedgeId h : now.mesh.halfedges()) EXPECT_FALSE(now.mesh.connectivity().is_constrained(h));
+    });
+  };
+  const SurfaceReport report = optimized(mesh, options);
+  EXPECT_GT(calls, 3U);
+  EXPECT_EQ(least, report.violations_after);
+  EXPECT_EQ(last.n_triangles(), mesh.n_triangles());
+  EXPECT_EQ(vertices.size(), report.vertices.size());
+  SurfaceMesh other = input;
+  options.best_so_far = {};
+  static_cast<void>(optimized(other, options));
+  EXPECT_EQ(other, mesh) << "the listener changes nothing";
 }
 
 TEST(SurfaceOptimize, AStopLeavesTheMeshAsItIsAndSaysSo) {
