@@ -152,10 +152,23 @@ IdVector<VertexId, double> local_sizes(const Mesh& mesh, const Walk& walk, Execu
   return sizes;
 }
 
-RelativeLengths relative_lengths(const Mesh& mesh, const IdVector<VertexId, double>& sizes, HalfedgeId h) {
+namespace {
+
+template <class Size>
+RelativeLengths relative(const Mesh& mesh, HalfedgeId h, const Size& size_at) {
   const auto [edge, dual] = edge_lengths(mesh, h);
-  const double size = 0.5 * (sizes[mesh.origin(h)] + sizes[mesh.target(h)]);
+  const double size = 0.5 * (size_at(mesh.origin(h)) + size_at(mesh.target(h)));
   return {edge / size, dual / size};
+}
+
+}  // namespace
+
+RelativeLengths relative_lengths(const Mesh& mesh, const IdVector<VertexId, double>& sizes, HalfedgeId h) {
+  return relative(mesh, h, [&](VertexId v) { return sizes[v]; });
+}
+
+RelativeLengths relative_lengths(const Mesh& mesh, HalfedgeId h) {
+  return relative(mesh, h, [&](VertexId v) { return local_size(mesh, v); });
 }
 
 Spread spread(std::vector<double> values) {

@@ -40,8 +40,9 @@ struct GuardLimits {
   GuardValues for_steps;  ///< tighter by a margin, since other maps and units give slightly other values
   std::shared_ptr<const DepthField> depth;  ///< or null
   Client client = Client::none;
-  bool has_cells = false;         ///< cells and their triangles are measured
-  bool has_flow = false;          ///< flow links are measured
+  bool has_cells = false;  ///< cells and their triangles are measured
+  bool has_flow = false;   ///< flow links are measured
+  [[nodiscard]] bool has_cells_or_flow() const { return has_cells || has_flow; }
   std::vector<double> of_client;  ///< client_values() of the input
 };
 

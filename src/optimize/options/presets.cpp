@@ -23,12 +23,16 @@ constexpr double kBandOfSizes = 2;
 /// Least lengths over the local size that solvers with explicit time steps need.
 constexpr double kLongEdge = 0.75, kLongDual = 0.3;
 
+/// Each repair counts as a sweep, and places without weights need many.
+constexpr int kSweepsWithRepairs = 4000;
+
 void move_positions_alone(Options& o) { o.unknowns = Unknowns::positions; }
 
 /// For solvers that use circumcenters, or no dual: positions alone, with edges of at least these lengths.
 void place_vertices(Options& o, double min_dual) {
   move_positions_alone(o);
   o.repair = Repair::vertices;
+  o.max_sweeps = kSweepsWithRepairs;
   o.accuracy.min_edge = kLongEdge;
   o.accuracy.min_dual = min_dual;
 }

@@ -56,9 +56,9 @@ class LocalCopy {
   void shake(double amount, Rng& rng) { step_.shake(amount, rng); }
 
   /// Sweeps of E_BP with a shrinking γ, until `ends`(sweep, γ of the next sweep) says so, or γ has been at its floor
-  /// for a few sweeps.
+  /// for a few sweeps. `quick`: γ shrinks faster.
   template <class Ends>
-  void sweep(const Ends& ends);
+  void sweep(bool quick, const Ends& ends);
   /// Says whether the last sweep has moved a vertex.
   [[nodiscard]] bool has_moved() const { return step_.has_moved(); }
 
@@ -79,8 +79,8 @@ class LocalCopy {
  private:
   // γ/ℓ of the first sweep, its factor from sweep to sweep, and its least value; and enough sweeps for all of them.
   // With a guard, whose sweeps are slow, those at the floor change little.
-  static constexpr double kFirstGamma = 0.5, kGammaFactor = 0.7, kLeastGamma = 0.003;
-  static constexpr int kMostSweeps = 25, kMostGuardedSweeps = 18;
+  static constexpr double kFirstGamma = 0.5, kGammaFactor = 0.7, kQuickGammaFactor = 0.5, kLeastGamma = 0.003;
+  static constexpr int kMostSweeps = 25, kMostGuardedSweeps = 18, kMostQuickSweeps = 11;
 
   [[nodiscard]] WeightedPoint place_on_line(HalfedgeId h, double part) const;
 
@@ -102,16 +102,16 @@ class LocalCopy {
 [[nodiscard]] Settings settings_of_copies(const Settings& settings);
 
 template <class Ends>
-void LocalCopy::sweep(const Ends& ends) {
+void LocalCopy::sweep(bool quick, const Ends& ends) {
   double gamma = kFirstGamma;
-  const int most = settings_.guard == nullptr ? kMostSweeps : kMostGuardedSweeps;
+  const int most = quick ? kMostQuickSweeps : settings_.guard == nullptr ? kMostSweeps : kMostGuardedSweeps;
   for (int i = 0; i < most; ++i) {
     state_.model.gamma = {gamma, LengthScale::relative};
     step_.begin_sweep(i, settings_.options.unknowns);
     for (const VertexId v : work_.mesh.vertices()) {
       if (!is_frozen(v) && !work_.mesh.is_isolated(v)) step_.improve(v);
     }
-    gamma = std::max(kLeastGamma, kGammaFactor * gamma);
+    gamma = std::max(kLeastGamma, (quick ? kQuickGammaFactor : kGammaFactor) * gamma);
     if (ends(i, gamma)) return;
   }
 }

@@ -16,8 +16,9 @@
 namespace temper {
 namespace {
 
-constexpr int kRings = 3;
-// After this number of failures the neighborhood gets one more ring.
+// The neighborhood gets one more ring after each number of failures, up to the most. Quick trials that measure cells or
+// flow links take long, so they begin with less room: with new vertices it is enough for most places.
+constexpr int kRings = 3, kMostRings = 4, kQuickRings = 2;
 constexpr int kFailuresBeforeWider = 6;
 constexpr int kFailuresBeforeSideways = 5;
 // After this number of failures a vertex is inserted even if more triangles become bad: more vertices leave more room.
@@ -27,8 +28,9 @@ constexpr int kMostFailures = 60, kMostFailuresOfMoves = 10;
 // An edit that helps lowers the violation by this part, or the number of bad triangles.
 constexpr double kHelps = 0.01;
 constexpr std::uint32_t kSidewaysChoice = 4;
-// With a guard a trial takes this many times as long.
-constexpr std::size_t kVisitsByGuard = 2;
+// With a guard a trial takes this many times as long; more if it measures cells or flow links, so that quick trials end
+// soon.
+constexpr std::size_t kVisitsByGuard = 2, kVisitsByGuardOfCells = 6;
 // Repairs are local. Where most triangles are bad they gain little, so a trial counts this many times.
 constexpr std::size_t kVisitsWhereMostAreBad = 8;
 
@@ -59,42 +61,76 @@ bool repairs_split_lines(const Settings& settings, const Space& space) {
 bool RepairSearch::improve_one_place() {
   const bool vertices = settings_.options.repair == Repair::vertices;
   find_bad();
-  const std::vector<TriangleId> lacking =
-      bad_.empty() && vertices ? triangles_lacking_length(work_.mesh, settings_.accuracy) : std::vector<TriangleId>();
-  const std::vector<TriangleId>& bad = bad_.empty() ? lacking : bad_;
+  if (!bad_.empty()) short_.reset();
+  if (bad_.empty() && vertices) find_short();
+  const std::vector<TriangleId>& bad = short_ ? *short_ : bad_;
   // With many bad places, each gets a try; but a guard may leave none of them room, as in a grid of equal triangles.
   const int places = settings_.guard == nullptr ? static_cast<int>(bad.size()) : 0;
   const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, places);
+  const int rings = vertices && is_quick_by_cells() ? kQuickRings : kRings;
   while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left() > 0) {
     const TriangleId seed = bad[rng_.below(static_cast<std::uint32_t>(bad.size()))];
-    const Neighborhood around = neighborhood_of(work_, seed, kRings + (failures_ >= kFailuresBeforeWider ? 1 : 0));
+    const Neighborhood around =
+        neighborhood_of(work_, seed, std::min(kMostRings, rings + failures_ / kFailuresBeforeWider));
     auto edit = choose_forced(around, seed);
     if (!edit) edit = choose(around, seed);
     if (run_.stopped_early()) return false;
     if (!edit) continue;
-    const TrialResult result = try_edit(around, *edit, settings_, work_.units, true);
+    const TrialResult result = try_edit(around, *edit, settings_, work_.units, true, pace());
     TEMPER_ASSERT(result.valid);  // as without a listener
     const std::vector<VertexId> there = splice(work_, flipper_, around, result.events);
-    changed_.reset();
-    if (!flipper_.has_removed()) changed_ = triangles_at(work_.mesh, there);
-    std::erase_if(weighed_, [&](TriangleId t) { return !changed_ || is_changed(t); });
+    changed_ = triangles_at(work_.mesh, there);
+    has_new_numbers_ = flipper_.has_removed();
+    std::erase_if(weighed_, [&](TriangleId t) { return has_new_numbers_ || is_changed(t); });
     return true;
   }
   return false;
 }
 
-/// If the last edit kept all numbers, looks only at its place. Duals also change next to it.
+void RepairSearch::renumber(const Compaction& kept) {
+  const auto follow = [&](std::vector<TriangleId>& list) {
+    std::size_t n = 0;
+    for (const TriangleId t : list) {  // kept triangles have kept their order
+      const auto at = std::lower_bound(kept.triangles.begin(), kept.triangles.end(), t);
+      if (at != kept.triangles.end() && *at == t) list[n++] = TriangleId(at - kept.triangles.begin());
+    }
+    list.resize(n);
+  };
+  follow(bad_);
+  if (short_) follow(*short_);
+  if (changed_) follow(*changed_);
+}
+
+std::optional<std::vector<TriangleId>> RepairSearch::changed() const {
+  return has_new_numbers_ ? std::nullopt : changed_;
+}
+
+/// Looks again at the place of the last edit. Duals also change next to it.
+template <class Is>
+void RepairSearch::follow_change(std::vector<TriangleId>& list, const Is& is) const {
+  std::erase_if(list, [&](TriangleId t) { return is_changed(t); });
+  for (const TriangleId t : *changed_) {
+    if (is(t)) list.push_back(t);
+  }
+  std::sort(list.begin(), list.end());
+}
+
 void RepairSearch::find_bad() {
   if (!changed_ || settings_.criterion != Criterion::well_centered) {
     bad_ = cells_at_violations(work_.mesh, settings_.criterion, settings_.executor());
     return;
   }
-  std::erase_if(bad_, [&](TriangleId t) { return is_changed(t); });
-  for (const TriangleId t : *changed_) {
-    if (is_bad(work_.mesh, t)) bad_.push_back(t);
-  }
-  std::sort(bad_.begin(), bad_.end());
+  follow_change(bad_, [&](TriangleId t) { return is_bad(work_.mesh, t); });
   TEMPER_ASSERT_SLOW(bad_ == bad_triangles(work_.mesh));
+}
+
+void RepairSearch::find_short() {
+  if (!changed_ || !short_) {
+    short_ = triangles_lacking_length(work_.mesh, settings_.accuracy);
+    return;
+  }
+  follow_change(*short_, [&](TriangleId t) { return lacks_length(work_.mesh, t, settings_.accuracy); });
+  TEMPER_ASSERT_SLOW(*short_ == triangles_lacking_length(work_.mesh, settings_.accuracy));
 }
 
 /// Says whether a linear program may find weights. It is not solved in periodic planes, or twice for the same place. It
@@ -115,9 +151,11 @@ bool RepairSearch::assigns_weights(TriangleId seed) const {
 /// Trials that the memo has count, too, so that a search with it ends as one without.
 void RepairSearch::count_trial(const Neighborhood& around, const Edit& edit) {
   const bool program = std::holds_alternative<AssignWeights>(edit);
-  const std::size_t visits = (settings_.guard != nullptr ? kVisitsByGuard : 1) *
-                             (2 * bad_.size() > work_.mesh.n_triangles() ? kVisitsWhereMostAreBad : 1) *
-                             around.mesh.n_triangles();
+  const std::size_t by_guard = settings_.guard == nullptr ? 1
+                               : is_quick_by_cells()      ? kVisitsByGuardOfCells
+                                                          : kVisitsByGuard;
+  const std::size_t visits =
+      by_guard * (2 * bad_.size() > work_.mesh.n_triangles() ? kVisitsWhereMostAreBad : 1) * around.mesh.n_triangles();
   run_.count_trials(program ? 1 + kTrialsOfAProgram : 1, visits);
 }
 
@@ -151,7 +189,7 @@ std::optional<Edit> RepairSearch::choose_forced(const Neighborhood& around, Tria
   for (const Edit& edit : splits_of(around, h, conflict->split_at)) {
     if (run_.repair_trials_left() == 0 || run_.asked_to_stop(0)) return std::nullopt;
     count_trial(around, edit);
-    const TrialResult result = try_edit(around, edit, settings_, work_.units, false);
+    const TrialResult result = try_edit(around, edit, settings_, work_.units, false, pace());
     if (result.valid) all.push_back({edit, result.defect});
   }
   return finer(std::move(all));
@@ -165,7 +203,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
   std::vector<Tried> all;
   const Allowed allowed = {assigns_weights(seed), settings_.options.repair == Repair::vertices,
                            repairs_split_lines(settings_, work_.mesh.space()), settings_.policy.insertion_place};
-  TrialMemo::Results& memo = memo_.at(around);
+  TrialMemo::Results& memo = memo_.at(around, pace());
   const auto tiers = edits_for(around, allowed, rng_);
   for (std::size_t i = 0; i < tiers.size() && !best; ++i) {
     for (std::size_t k = 0; k < tiers[i].size(); ++k) {
@@ -175,7 +213,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
       count_trial(around, edit);
       std::optional<TrialResult>& result = memo[{i, k}];
       if (!result || std::holds_alternative<Perturb>(edit))
-        result = try_edit(around, edit, settings_, work_.units, false);
+        result = try_edit(around, edit, settings_, work_.units, false, pace());
       if (!result->valid) continue;
       all.push_back({edit, result->defect});
       if (!helps(least, result->defect)) continue;

@@ -22,21 +22,25 @@ namespace temper {
 class RepairSearch {
  public:
   /// `seed`: of all random choices. `asks_programs`: linear programs find weights for places that nothing else cures.
-  /// `memo`: trials of this run with the same settings.
-  RepairSearch(WorkingCopy& work, Run& run, Flipper& flipper, TrialMemo& memo, std::uint64_t seed, bool asks_programs)
+  /// `memo`: trials of this run with the same settings. `pace`: of trials at bad triangles by a guard.
+  RepairSearch(WorkingCopy& work, Run& run, Flipper& flipper, TrialMemo& memo, std::uint64_t seed, bool asks_programs,
+               Pace pace)
       : work_(work),
         settings_(flipper.settings()),
         run_(run),
         flipper_(flipper),
         memo_(memo),
         rng_(seed),
-        asks_programs_(asks_programs) {}
+        asks_programs_(asks_programs),
+        pace_(pace) {}
 
   /// Changes the mesh in one place, never to more bad triangles. Returns false if none is left, none can be cured, or
   /// the run must stop. Removed vertices stay isolated. The caller must compact before the next call.
   bool improve_one_place();
+  /// Follows that compaction.
+  void renumber(const Compaction& kept);
   /// Returns the present triangles of that place. Returns none if triangles have new numbers.
-  [[nodiscard]] const std::optional<std::vector<TriangleId>>& changed() const { return changed_; }
+  [[nodiscard]] std::optional<std::vector<TriangleId>> changed() const;
 
  private:
   struct Tried {
@@ -51,6 +55,14 @@ class RepairSearch {
   static std::optional<Edit> finer(std::vector<Tried> tried);
   void count_trial(const Neighborhood& around, const Edit& edit);
   void find_bad();
+  void find_short();
+  template <class Is>
+  void follow_change(std::vector<TriangleId>& list, const Is& is) const;
+  /// Without a guard, trials are fast anyway. To make edges longer, the quick ones are enough.
+  [[nodiscard]] Pace pace() const {
+    return settings_.guard != nullptr && (pace_ == Pace::quick || bad_.empty()) ? Pace::quick : Pace::thorough;
+  }
+  [[nodiscard]] bool is_quick_by_cells() const { return pace() == Pace::quick && settings_.guard->has_cells_or_flow(); }
   [[nodiscard]] bool is_changed(TriangleId t) const {
     return std::binary_search(changed_->begin(), changed_->end(), t);
   }
@@ -62,10 +74,14 @@ class RepairSearch {
   TrialMemo& memo_;
   Rng rng_;
   const bool asks_programs_;
+  const Pace pace_;
   int failures_ = 0;                 // places without a helpful edit since the last success
   std::vector<TriangleId> weighed_;  // seeds of places for which a linear program has failed, since programs are slow
-  std::vector<TriangleId> bad_;      // before the edit that `changed_` describes
+  // These are sorted. After improve_one_place() the first two are as before its edit, which has changed the third.
+  std::vector<TriangleId> bad_;
+  std::optional<std::vector<TriangleId>> short_;  // triangles whose edges lack length, once all bad ones are cured
   std::optional<std::vector<TriangleId>> changed_;
+  bool has_new_numbers_ = false;  // since that edit
 };
 
 /// Says whether these options ask for repairs and allow them.

@@ -28,6 +28,10 @@ constexpr double kPerturbation = 0.4;
 constexpr double kWeighedMargin = 0.005;
 // Programs with one more ring take four times as long and cure hardly more.
 constexpr int kWeighedRings = 2;
+// After these sweeps a quick trial ends if this number of triangles more are bad than before, or the guard refuses.
+// Cells and flow links settle later than angles.
+constexpr int kSweepsOfDoubt = 3, kSweepsOfDoubtByCells = 4;
+constexpr std::size_t kDoubtful = 2;
 // More vertices than any neighborhood lacks.
 constexpr int kMostInserted = 300;
 
@@ -39,15 +43,20 @@ bool lacks_sweeps(const Edit& edit) {
 class Trial {
  public:
   /// `settings`: by settings_of_copies().
-  Trial(const Neighborhood& around, const Settings& settings, const WorkingUnits& grid, bool with_events)
-      : around_(around), settings_(settings), grid_(grid), copy_(around, settings, grid, with_events) {}
+  Trial(const Neighborhood& around, const Settings& settings, const WorkingUnits& grid, bool with_events, Pace pace)
+      : around_(around),
+        settings_(settings),
+        grid_(grid),
+        quick_(pace == Pace::quick),
+        copy_(around, settings, grid, with_events) {}
 
   TrialResult run(const Edit& edit, bool levels) && {
     if (levels && !level_weights()) return {};
-    const bool applied = std::visit([this](const auto& e) { return apply(e); }, edit);
+    const bool applied = std::visit([this](const auto& e) { return this->apply(e); }, edit);
     if (!applied || !copy_.make_regular()) return {};
     if (lacks_sweeps(edit)) return {true, defect_of(copy_.mesh()), copy_.take_events()};
-    if (!std::holds_alternative<AssignWeights>(edit)) sweep();  // the first γ of sweeps would undo the weights
+    // The first γ of sweeps would undo the weights.
+    if (!std::holds_alternative<AssignWeights>(edit) && !sweep()) return {};
     TrialResult result;
     result.defect = defect_of(around_, copy_.mesh(), settings_);
     result.valid = copy_.is_regular() && is_guarded();
@@ -183,22 +192,36 @@ class Trial {
     }
   }
 
-  void sweep() {
+  /// Says whether too many triangles are bad after the first sweeps.
+  [[nodiscard]] bool is_hopeless() const {
+    const std::size_t before = defect_of(around_, around_.mesh, settings_).bad;
+    const std::size_t bad = defect_of(around_, copy_.mesh(), settings_).bad;
+    return before > 0 && (bad >= before + kDoubtful || !is_guarded());
+  }
+
+  /// Returns false if the trial was given up.
+  bool sweep() {
     const Mesh& mesh = copy_.mesh();
+    bool hopeless = false;
+    const bool by_cells = settings_.guard != nullptr && settings_.guard->has_cells_or_flow();
+    const int doubt = by_cells ? kSweepsOfDoubtByCells : kSweepsOfDoubt;
     const auto is_good = [&](TriangleId t) { return !is_bad(mesh, t); };
     const auto all = mesh.triangles();
-    copy_.sweep([&](int /*sweep*/, double gamma) {
+    copy_.sweep(quick_, [&](int i, double gamma) {
+      if (quick_ && i + 1 == doubt && is_hopeless()) return hopeless = true;
       if (settings_.guard != nullptr && !copy_.has_moved()) return true;  // it refuses all steps
       if (settings_.criterion != Criterion::well_centered)
         return violated_edges(around_, mesh, settings_.criterion).empty();
       if (gamma >= kSharp || settings_.accuracy.keeps_lengths()) return false;
       return std::all_of(all.begin(), all.end(), is_good);
     });
+    return !hopeless;
   }
 
   const Neighborhood& around_;
   const Settings& settings_;
   const WorkingUnits& grid_;
+  const bool quick_;
   LocalCopy copy_;
 };
 
@@ -231,14 +254,14 @@ LocalDefect defect_of(const Neighborhood& around, const Mesh& local, const Setti
 }
 
 TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings, const WorkingUnits& grid,
-                     bool with_events) {
+                     bool with_events, Pace pace) {
   const Settings of_trial = settings_of_copies(settings);
-  TrialResult result = Trial(around, of_trial, grid, with_events).run(edit, false);
+  TrialResult result = Trial(around, of_trial, grid, with_events, pace).run(edit, false);
   const Space& space = around.mesh.space();
   const bool may_level = inserts_vertices(edit) && !lacks_sweeps(edit) && space.is_plane() && !space.is_periodic() &&
                          settings.options.unknowns != Unknowns::positions;
   if (result.valid || !may_level) return result;
-  return Trial(around, of_trial, grid, with_events).run(edit, true);
+  return Trial(around, of_trial, grid, with_events, pace).run(edit, true);
 }
 
 }  // namespace temper

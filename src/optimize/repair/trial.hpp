@@ -77,10 +77,15 @@ struct TrialResult {
   std::vector<TraceEvent> events;  ///< if requested; in local numbers, new vertices last
 };
 
+enum class Pace {
+  quick,    ///< Fewer sweeps, and an early end if the edit is unlikely to help
+  thorough  ///< All sweeps
+};
+
 /// Applies the edit to a copy of the neighborhood and optimizes it. If new vertices are not possible with the present
 /// weights, tries again with level weights of all vertices that are not frozen. `grid`: the whole mesh's, for
 /// positions.
 [[nodiscard]] TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings,
-                                   const WorkingUnits& grid, bool with_events);
+                                   const WorkingUnits& grid, bool with_events, Pace pace = Pace::thorough);
 
 }  // namespace temper

@@ -5,10 +5,11 @@
 namespace temper {
 namespace {
 
-std::string bytes_of(const Neighborhood& around) {
+std::string bytes_of(const Neighborhood& around, Pace pace) {
   const Mesh& mesh = around.mesh;
   std::string bytes;
   ByteWriter out(bytes);
+  out.write(pace);
   out.write(around.seed);
   out.write(mesh.n_vertices());
   for (const VertexId v : mesh.vertices()) {
@@ -39,9 +40,9 @@ std::string bytes_of(const Neighborhood& around) {
 
 }  // namespace
 
-TrialMemo::Results& TrialMemo::at(const Neighborhood& around) {
+TrialMemo::Results& TrialMemo::at(const Neighborhood& around, Pace pace) {
   if (places_.size() == kMostPlaces) places_.clear();
-  return places_[bytes_of(around)];
+  return places_[bytes_of(around, pace)];
 }
 
 }  // namespace temper

@@ -23,7 +23,7 @@ class TrialMemo {
   using Results = std::map<std::array<std::size_t, 2>, std::optional<TrialResult>>;
 
   /// Returns the results at this place. They may be gone after the next call. O(size of the neighborhood).
-  [[nodiscard]] Results& at(const Neighborhood& around);
+  [[nodiscard]] Results& at(const Neighborhood& around, Pace pace);
 
  private:
   // A place takes about 5 kB. Searches rarely come back to a place after so many others.

@@ -18,17 +18,16 @@
 namespace temper {
 namespace {
 
-using Sizes = IdVector<VertexId, double>;
-
 double missing(double length, double least) {
   const double part = length < least ? 1 - std::max(length, 0.0) / least : 0;
   return part * part;
 }
 
-/// Returns the term of the inner edge that h represents, or 0.
-double missing_of(const Mesh& mesh, const Sizes& sizes, const AccuracyModel& model, HalfedgeId h) {
+/// Returns the term of the inner edge that h represents, or 0. `sizes`: local sizes, if they are known.
+template <class... Sizes>
+double missing_of(const Mesh& mesh, const AccuracyModel& model, HalfedgeId h, const Sizes&... sizes) {
   if (mesh.is_erased(Mesh::triangle(h)) || mesh.is_boundary(h) || !mesh.is_edge_representative(h)) return 0;
-  const auto [edge, dual] = relative_lengths(mesh, sizes, h);
+  const auto [edge, dual] = relative_lengths(mesh, sizes..., h);
   return missing(edge, model.min_edge) + missing(dual, model.min_dual);
 }
 
@@ -36,17 +35,22 @@ double missing_of(const Mesh& mesh, const Sizes& sizes, const AccuracyModel& mod
 
 double missing_lengths(const Mesh& mesh, const AccuracyModel& model, Executor* executor) {
   if (!model.keeps_lengths()) return 0;
-  const Sizes sizes = local_sizes(mesh, executor);
+  const IdVector<VertexId, double> sizes = local_sizes(mesh, executor);
   return blockwise_sum(mesh.n_halfedges(), executor,
-                       [&](std::size_t i) { return missing_of(mesh, sizes, model, HalfedgeId(i)); });
+                       [&](std::size_t i) { return missing_of(mesh, model, HalfedgeId(i), sizes); });
+}
+
+bool lacks_length(const Mesh& mesh, TriangleId t, const AccuracyModel& model) {
+  const auto lacks = [&](int k) { return missing_of(mesh, model, Mesh::halfedge(t, k)) > 0; };
+  return model.keeps_lengths() && (lacks(0) || lacks(1) || lacks(2));
 }
 
 std::vector<TriangleId> triangles_lacking_length(const Mesh& mesh, const AccuracyModel& model) {
   std::vector<TriangleId> lacking;
   if (!model.keeps_lengths()) return lacking;
-  const Sizes sizes = local_sizes(mesh);
+  const IdVector<VertexId, double> sizes = local_sizes(mesh);
   for (const HalfedgeId h : mesh.halfedges()) {
-    if (missing_of(mesh, sizes, model, h) > 0) lacking.push_back(Mesh::triangle(h));
+    if (missing_of(mesh, model, h, sizes) > 0) lacking.push_back(Mesh::triangle(h));
   }
   lacking.erase(std::unique(lacking.begin(), lacking.end()), lacking.end());
   return lacking;

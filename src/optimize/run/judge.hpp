@@ -17,7 +17,9 @@ namespace temper {
 /// min_dual require. If no length is missing, it is exactly 0. Triangles may be erased. O(n).
 [[nodiscard]] double missing_lengths(const Mesh& mesh, const AccuracyModel& model, Executor* executor = nullptr);
 
-/// Returns the triangles that have an edge which lacks length, in ascending order.
+/// Says whether the triangle has an edge that it represents and that lacks length. O(degree).
+[[nodiscard]] bool lacks_length(const Mesh& mesh, TriangleId t, const AccuracyModel& model);
+/// Returns all these triangles, in ascending order. O(n).
 [[nodiscard]] std::vector<TriangleId> triangles_lacking_length(const Mesh& mesh, const AccuracyModel& model);
 
 /// Returns the largest of −h/ℓ, −d/ℓ and d/ℓ − 1 of triangle t, which is positive if it is not well-centered.

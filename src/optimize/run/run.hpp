@@ -57,7 +57,7 @@ class Run : public RunOf<OptimizeHooks, OptimizeReport> {
       : RunOf(options, hooks),
         input_(input),
         trials_left_(options.repair_trials),
-        trial_triangles_left_(most_trial_triangles(options, input)) {}
+        most_trial_triangles_(most_trial_triangles(options, input)) {}
 
   /// Returns the number of the next sweep; 0 before the first sweep, while flips make the input regular.
   [[nodiscard]] int next_sweep() const { return report.sweeps == 0 ? 0 : report.sweeps + 1; }
@@ -72,7 +72,7 @@ class Run : public RunOf<OptimizeHooks, OptimizeReport> {
   /// Gives repairs their budgets again, for another attempt.
   void renew_trials() {
     trials_left_ = options_.repair_trials;
-    trial_triangles_left_ = most_trial_triangles(options_, input_);
+    trial_triangles_left_ = most_trial_triangles_;
   }
   /// Offers a mesh of the run to the listener, if there is one, which may save it.
   void offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const;
@@ -93,7 +93,8 @@ class Run : public RunOf<OptimizeHooks, OptimizeReport> {
 
   const Mesh& input_;
   int trials_left_;
-  double trial_triangles_left_;  // triangles of all trials together
+  const double most_trial_triangles_;  // of all trials together; kept here because a run may fold the input up
+  double trial_triangles_left_ = most_trial_triangles_;
 };
 
 // All ranks of a run must get the same input. Otherwise they wait for each other forever.

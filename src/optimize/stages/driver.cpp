@@ -171,17 +171,18 @@ bool Driver::insert_vertices(int iteration) {
   return true;
 }
 
-/// Drops removed vertices and triangles everywhere.
-void Driver::compact() {
-  if (!flipper_.has_removed()) return;
+/// Drops removed vertices and triangles everywhere. Returns nothing if there are none.
+std::optional<Compaction> Driver::compact() {
+  if (!flipper_.has_removed()) return std::nullopt;
   const std::size_t n = mesh_.n_vertices();
-  const Compaction kept = work_.compact();
+  Compaction kept = work_.compact();
   sweeper_.renumber(kept);
-  if (sequence_.empty()) return;
+  if (sequence_.empty()) return kept;
   IdVector<VertexId, VertexId> new_id(n);
   for (const VertexId v : mesh_.vertices()) new_id[kept.vertices[v]] = v;
   for (VertexId& v : sequence_) v = new_id[v];
   std::erase_if(sequence_, [](VertexId v) { return !v.valid(); });
+  return kept;
 }
 
 void Driver::grow() {
@@ -336,22 +337,23 @@ void Driver::end_sweep_of_its_own() {
 template <class Measure>
 void Driver::end_round(const Phase& phase, const Measure& measure) {
   grow();
-  compact();
+  const std::optional<Compaction> kept = compact();
   ++run_.report.sweeps;
-  record(measure());
+  record(measure(kept));
   show(Snapshot::Moment::after_sweep, phase);
   run_.offer(work_, settings_, state_);
   recorder_.begin_sweep(run_.report.sweeps + 1);
 }
 
-bool Driver::repair(TrialMemo& memo, std::uint64_t seed, bool asks_programs) {
+bool Driver::repair(TrialMemo& memo, std::uint64_t seed, Pace pace, bool asks_programs) {
   EnergyPhase phase(work_, settings_, state_, run_, kPolish);  // puts repairs into the history
-  RepairSearch search(work_, run_, flipper_, memo, seed, asks_programs);
+  RepairSearch search(work_, run_, flipper_, memo, seed, asks_programs, pace);
   bool changed = false;
   RunningEnergyAndBad totals;
   while (run_.sweeps_left() && search.improve_one_place()) {
     changed = true;
-    end_round(phase, [&] {
+    end_round(phase, [&](const std::optional<Compaction>& kept) {
+      if (kept) search.renumber(*kept);
       return phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.executor()));
     });
   }
@@ -365,9 +367,9 @@ int Driver::mend() {
   run_.begin_sweeps();
   recorder_.begin_sweep(run_.report.sweeps + 1);
   if (run_.sweeps_left() && NearSweeps(work_, flipper_, state_, run_).run())
-    end_round(phase, [&] { return phase.measure(); });
+    end_round(phase, [&](const auto&) { return phase.measure(); });
   GrowingSearch search(work_, run_, flipper_, settings_.policy.seed);
-  while (run_.sweeps_left() && search.improve()) end_round(phase, [&] { return phase.measure(); });
+  while (run_.sweeps_left() && search.improve()) end_round(phase, [&](const auto&) { return phase.measure(); });
   if (!run_.goes_on() && !run_.stopped_early()) run_.report.stopped = Stopped::max_sweeps;
   return run_.report.sweeps;
 }
@@ -379,7 +381,7 @@ void Driver::coarsen(int moves_of_cure) {
   for (bool goes_on = true; goes_on;) {  // rounds of moves, which `max_sweeps` does not limit
     run_.n_vertices = mesh_.n_vertices();
     goes_on = search.improve();
-    end_round(phase, [&] { return phase.measure(); });
+    end_round(phase, [&](const auto&) { return phase.measure(); });
   }
   run_.n_vertices.reset();
 }

@@ -36,7 +36,7 @@ class Driver {
 
   /// Searches locally for repairs of triangles that all restarts left bad. Returns false if nothing changed.
   /// `asks_programs`: use linear programs for weights. `memo`: trials of this run.
-  bool repair(TrialMemo& memo, std::uint64_t seed, bool asks_programs = false);
+  bool repair(TrialMemo& memo, std::uint64_t seed, Pace pace, bool asks_programs = false);
   /// Makes the places that violate the criterion good, with as few changes as possible. Returns as restart().
   int mend();
   /// Cures bad triangles, then searches for a mesh with fewer vertices.
@@ -62,7 +62,7 @@ class Driver {
   bool improve_all_vertices(int iteration);
   void settle_updates(const IdVector<VertexId, WeightedPoint>& before);
   bool insert_vertices(int iteration);
-  void compact();
+  std::optional<Compaction> compact();
   void grow();
   bool halve_weights();
   void shift_weights_to_anchor();

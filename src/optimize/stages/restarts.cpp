@@ -27,6 +27,9 @@ constexpr std::size_t kFarMore = 2;
 constexpr double kFewerByWeights = 0.75;
 // A search that ends with bad triangles may have made a wrong choice early, so more searches follow.
 constexpr std::uint64_t kSearches = 4;
+// By a guard trials are slow, so quick ones come first. If at most so many triangles stay bad, a thorough search begins
+// anew, and the better mesh stays.
+constexpr std::size_t kFew = 6;
 // This search, if there is an LP solver, uses linear programs, and goes on from the result of the first.
 constexpr std::uint64_t kPrograms = 1;
 
@@ -83,6 +86,49 @@ bool are_apart(const Candidate& c, const Settings& s) {
 bool needs_repair(const Candidate& c, const Settings& s) {
   return has_bad(c, s) ||
          (s.options.repair == Repair::vertices && missing_lengths(c.work.mesh, s.accuracy, s.executor()) > 0);
+}
+
+bool may_repair(const Candidate& c, const Settings& settings, const Run& run) {
+  return run.goes_on() && run.repair_trials_left() > 0 && needs_repair(c, settings);
+}
+
+/// If new or removed vertices cured nothing, they are undone, which takes a copy.
+bool repairs_in_place(const Candidate& c, const Settings& settings) {
+  return settings.options.repair != Repair::vertices && are_apart(c, settings);
+}
+
+/// Searches for repairs several times, each with other random choices, and returns the best mesh.
+Candidate searched(Candidate best, Pace pace, const Settings& settings, SweepState& state, Run& run, TrialMemo& memo) {
+  const std::uint64_t searches = settings.lp != nullptr ? kSearches + 1 : kSearches;
+  std::optional<Candidate> start;  // beginning of all searches on copies, if it is no longer the best mesh
+  const bool in_place = repairs_in_place(best, settings);
+  for (std::uint64_t i = 0; i < searches && may_repair(best, settings, run); ++i) {
+    const BestBefore kept(run.best_before, in_place ? nullptr : &best.work);
+    const bool asks_programs = i == kPrograms && settings.lp != nullptr;
+    if (i == kPrograms && settings.lp == nullptr) run.facts.lacks_programs = true;
+    if (asks_programs) start.reset();  // programs for cured places would cost too much
+    Candidate copy;
+    if (!in_place) copy = start ? *start : best;
+    Candidate& now = in_place ? best : copy;
+    Driver driver(now.work, settings, state, run);
+    if (start) driver.recorder().returned_to(start->sweep);
+    const bool changed = driver.repair(memo, settings.policy.seed + i, pace, asks_programs);
+    now.sweep = run.report.sweeps;
+    if (in_place) continue;
+    if (changed && has_gained(now, best, settings, state.model)) {
+      if (!start) start = std::move(best);
+      best = std::move(now);
+      if (are_apart(best, settings)) start.reset();
+    } else {
+      driver.recorder().returned_to(best.sweep);
+    }
+  }
+  return best;
+}
+
+Candidate polished(Candidate best, const Settings& settings, SweepState& state, Run& run) {
+  if (run.goes_on()) best.sweep = Driver(best.work, settings, state, run).polish(best.sweep);
+  return best;
 }
 
 /// Returns the restarts to try from the present working copy. If all restarts with a cut boundary leave triangles bad,
@@ -246,40 +292,26 @@ Candidate coarsened(Candidate best, const Settings& settings, SweepState& state,
 }
 
 Candidate repaired(Candidate best, const Settings& settings, SweepState& state, Run& run) {
-  const auto is_done = [&](const Candidate& c) {
-    return !run.goes_on() || run.repair_trials_left() == 0 || !needs_repair(c, settings);
-  };
-  const std::uint64_t searches = settings.lp != nullptr ? kSearches + 1 : kSearches;
-  std::optional<Candidate> start;  // beginning of all searches on copies, if it is no longer the best mesh
-  if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, state.model))) return best;
-  // If new or removed vertices cured nothing, they are undone, which takes a copy.
-  const bool in_place = settings.options.repair != Repair::vertices && are_apart(best, settings);
-  TrialMemo memo;
-  for (std::uint64_t i = 0; i < searches && !is_done(best); ++i) {
-    const BestBefore kept(run.best_before, in_place ? nullptr : &best.work);
-    const bool asks_programs = i == kPrograms && settings.lp != nullptr;
-    if (i == kPrograms && settings.lp == nullptr) run.facts.lacks_programs = true;
-    if (asks_programs) start.reset();  // programs for cured places would cost too much
-    Candidate copy;
-    if (!in_place) copy = start ? *start : best;
-    Candidate& now = in_place ? best : copy;
-    Driver driver(now.work, settings, state, run);
-    if (start) driver.recorder().returned_to(start->sweep);
-    const bool changed = driver.repair(memo, settings.policy.seed + i, asks_programs);
-    now.sweep = run.report.sweeps;
-    if (in_place) continue;
-    if (changed && has_gained(now, best, settings, state.model)) {
-      if (!start) start = std::move(best);
-      best = std::move(now);
-      if (are_apart(best, settings)) start.reset();
-    } else {
-      driver.recorder().returned_to(best.sweep);
-    }
+  if (!repairs(settings) || !may_repair(best, settings, run) ||
+      !std::isfinite(total_energy(best.work.mesh, state.model))) {
+    return best;
   }
-  if (in_place) return best;
-  start.reset();
-  if (run.goes_on()) best.sweep = Driver(best.work, settings, state, run).polish(best.sweep);
-  return best;
+  TrialMemo memo;
+  if (repairs_in_place(best, settings)) return searched(std::move(best), Pace::thorough, settings, state, run, memo);
+  std::optional<Candidate> quick;
+  if (settings.guard != nullptr) {
+    quick = searched(best, Pace::quick, settings, state, run, memo);
+    const std::size_t left = count_bad(quick->work.mesh, settings.executor());
+    if (left == 0 || left > kFew || !run.goes_on()) return polished(*std::move(quick), settings, state, run);
+    run.renew_trials();
+    Driver(best.work, settings, state, run).recorder().returned_to(best.sweep);
+  }
+  best = searched(std::move(best), Pace::thorough, settings, state, run, memo);
+  if (quick && !replaces(best.work, quick->work, Requirement::fewer_bad, settings, state.model)) {
+    best = *std::move(quick);
+    Driver(best.work, settings, state, run).recorder().returned_to(best.sweep);
+  }
+  return polished(std::move(best), settings, state, run);
 }
 
 Candidate refined(Candidate best, const Settings& settings, SweepState& state, Run& run) {
@@ -301,7 +333,7 @@ Candidate refined(Candidate best, const Settings& settings, SweepState& state, R
     if (driver.refine_where_bad(factor) == 0) continue;
     last.sweep = driver.restart(restarts(settings, last.work.mesh).front(), true);
     if (has_bad(last, settings) && run.goes_on()) {
-      driver.repair(memo, settings.policy.seed);
+      driver.repair(memo, settings.policy.seed, Pace::thorough);
       last.sweep = run.report.sweeps;
     }
     is_best = replaces(last.work, best.work, Requirement::fewer_bad, settings, state.model);

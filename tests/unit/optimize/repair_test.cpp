@@ -338,7 +338,7 @@ TEST(TrialMemo, KnowsAPlaceByAllThatATrialDependsOn) {
   std::size_t k = 0;
   while (around.outside.at(k).points.empty()) ++k;
   TrialMemo memo;
-  memo.at(around)[{0, 0}] = TrialResult();
+  memo.at(around, Pace::quick)[{0, 0}] = TrialResult();
   const VertexId v(0);
   const std::vector<std::function<void(Neighborhood&)>> changes = {
       [](Neighborhood& n) { n.seed = TriangleId(n.seed.index + 1); },
@@ -361,10 +361,11 @@ TEST(TrialMemo, KnowsAPlaceByAllThatATrialDependsOn) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
     Neighborhood other = around;
     changes[i](other);
-    EXPECT_TRUE(memo.at(other).empty()) << i;
-    memo.at(other)[{0, 0}] = TrialResult();  // differs from all that follow
+    EXPECT_TRUE(memo.at(other, Pace::quick).empty()) << i;
+    memo.at(other, Pace::quick)[{0, 0}] = TrialResult();  // differs from all that follow
   }
-  EXPECT_EQ(memo.at(around).size(), 1u);
+  EXPECT_TRUE(memo.at(around, Pace::thorough).empty());
+  EXPECT_EQ(memo.at(around, Pace::quick).size(), 1u);
 }
 
 TEST(Trial, RemovesNoVertexThatIsFixedFrozenOfTheBoundaryOrOfALine) {
@@ -583,6 +584,23 @@ TEST(Trial, RefinesLinesOnlyIfItMay) {
   }
 }
 
+TEST(Run, RenewsTheWholeBudgetOfTrialsWhenItsInputIsAway) {
+  Mesh input = test::lattice({.n = 40, .jitter = 0.2});
+  const OptimizeOptions options;
+  const OptimizeHooks nobody;
+  temper::Run run(options, nobody, input);
+  const Mesh folded_up = std::exchange(input, Mesh());
+  const auto spend = [&] {
+    int trials = 0;
+    for (; run.repair_trials_left() > 0; ++trials) run.count_trials(1, folded_up.n_triangles());
+    return trials;
+  };
+  const int first = spend();
+  EXPECT_GT(first, 100);
+  run.renew_trials();
+  EXPECT_EQ(spend(), first);
+}
+
 TEST(Refined, LeavesNoBadTriangleWithoutRepairsBefore) {
   const Mesh input = polygon_with_line();
   ASSERT_GT(n_bad(input), 0u);
@@ -654,6 +672,26 @@ TEST(Trial, LeavesFrozenVerticesAndTellsWhatItDid) {
     ++applied;
   }
   EXPECT_GT(applied, 10u);
+}
+
+TEST(Trial, IsGivenUpEarlyOnlyIfQuickAndNextToBadTriangles) {
+  Mesh mesh = *horseshoe();
+  ASSERT_TRUE(optimize(mesh, {.repair = Repair::none, .max_sweeps = 40}));
+  const Settings settings = *make_settings({}, mesh, WorkingUnits());
+  std::size_t given_up = 0, made = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const Neighborhood around = neighborhood_of(WorkingCopy::part(mesh), t, 2);
+    const auto [a, b, c] = around.mesh.corners(TriangleId(0));
+    const Vec2 middle = (1.0 / 3) * (around.mesh.position(a) + around.mesh.position(b) + around.mesh.position(c));
+    const Edit edit = Insert{TriangleId(0), {middle.x, middle.y}};
+    const TrialResult quick = try_edit(around, edit, settings, WorkingUnits(), false, Pace::quick);
+    made += quick.valid ? 1 : 0;
+    if (quick.valid || !try_edit(around, edit, settings, WorkingUnits(), false).valid) continue;
+    EXPECT_GT(defect_of(around.mesh).bad, 0u);
+    ++given_up;
+  }
+  EXPECT_GT(given_up, 0u);
+  EXPECT_GT(made, 0u);
 }
 
 }  // namespace
