@@ -15,8 +15,8 @@ namespace temper::io {
 [[nodiscard]] std::vector<std::int32_t> fixed_points(const MeshFile& file, const VertexOfPoint& vertex,
                                                      std::span<const std::string> wanted);
 
-/// The vertices where tagged lines of the boundary, or of constrained edges, end or change their tag. If such a vertex slid, the user's groups would change their
-/// shape. `edges`: of each line of the file; invalid: it is left out.
+/// The vertices where tagged lines of the boundary, or of constrained edges, end or change their tag. If such a vertex
+/// slid, the user's groups would change their shape. `edges`: of each line of the file; invalid: it is left out.
 [[nodiscard]] std::vector<VertexId> ends_of_tags(const MeshFile& file, std::span<const HalfedgeId> edges,
                                                  const Mesh& mesh);
 /// Fixes these vertices on straight pieces of the boundary.
