@@ -66,7 +66,8 @@ enum class InterfaceVertices {
   sliding,  ///< Move along the line if their two constrained edges are collinear
 };
 
-/// The treatment of the boundary of the domain. In all cases its shape and its corners stay.
+/// The treatment of the boundary of the domain. Its corners stay. Its shape stays, except at bends of sliding lines of
+/// curved surfaces.
 enum class BoundaryVertices {
   keep,   ///< Keep the same vertices, bit for bit
   slide,  ///< Vertices whose two boundary edges are collinear may move along them; corners and ends of interfaces stay

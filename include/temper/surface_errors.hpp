@@ -1,9 +1,9 @@
-// The errors that a curved surface causes in users' solvers: temper/errors.hpp, with the fields of tetrahedra.
+// Measures the errors of solvers on a curved surface, as temper/errors.hpp does, with the fields of tetrahedra.
 //
-// The domain is the surface of plane triangles itself, and a solution u is a smooth function of space on it. So each
-// triangle has the part of ∇u in its plane. At an edge the parts across it differ, and −Δu = f has a source there: the
-// sum of both outflows. A scheme takes this source as it takes f. In the plane it is zero, and the schemes, numbers and
-// norms are those of temper/errors.hpp.
+// The domain is the surface of plane triangles itself, and a solution u is a smooth function of space on it. The
+// gradient in a triangle is ∇u projected to its plane. At an edge the two projections differ, so −Δu = f has a source
+// there: the outflow of both triangles. Both schemes add it to the right side; docs/reference/errors.md says how. In
+// the plane it is zero, so schemes and norms are as in temper/errors.hpp.
 #pragma once
 
 #include <span>
@@ -21,7 +21,7 @@ using tets::MeasureErrorsOptions;
 /// The frame of the bounding box of the vertices: its longest side goes from −1 to 1.
 [[nodiscard]] FieldFrame field_frame(const SurfaceMesh& mesh);
 
-/// As for triangles of the plane, without refinements and local errors.
+/// The report has no refinements and no local errors.
 struct ErrorReport : temper::ErrorReport {
   FieldFrame frame;
 };

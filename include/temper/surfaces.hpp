@@ -178,7 +178,8 @@ struct BuiltSurface {
 // --- quality --------------------------------------------------------------------------------------------------------
 
 /// The report on a surface. No triangle of a surface is inverted. Energies and SolverMeasures are not measured: they
-/// keep the values that they have without a mesh. Places have z.
+/// keep the values that they have without a mesh. `at` of a place is x and y, and `z` the
+/// third coordinate.
 struct Quality : temper::Quality {};
 [[nodiscard]] const ReportTable& table_of(const Quality*);
 /// The rows of temper::quality_measures() that are measured on surfaces.
@@ -348,14 +349,15 @@ struct SurfaceOptions {
   double margin = 0.01;  ///< Margin t of the final weights, in (0, 1/2)
   /// Largest distance between input and result, in parts of the diagonal of the bounding box.
   double surface_distance = 0.005;
-  /// Creases are edges whose triangles turn by more than this angle, from 1° to 180°. They stay; new vertices
-  /// may split them. A thin triangle that two such edges fold out of the surface has none.
+  /// Creases are edges whose triangles turn by more than this angle, from 1° to 180°. No vertex leaves a
+  /// crease. New vertices may split its edges. A thin triangle that two such edges fold out of the surface has none.
   double crease_angle_deg = 70;
   bool may_flip = true;    ///< Allow flips of edges in space
   bool may_insert = true;  ///< Allow edges to be split and collapsed next to bad triangles
   bool may_move = true;    ///< Allow vertices to move. Else only weights change
-  /// Allow vertices inside of lines to slide along the line of the input. A line is a piece of the boundary, of a
-  /// crease or of constrained edges. Its ends and its bends of more than 40° stay. Else all vertices of lines stay.
+  /// Allow vertices of lines to slide along the line of the input. A line is a piece of the boundary, of a crease or of
+  /// constrained edges. Its ends, and vertices where it bends by more than 40°, stay. false: all vertices of lines
+  /// stay.
   bool may_slide = false;
   /// Repairs end after this number of edits in a row that do not help. Usually fewer than one edit of 20 helps.
   int repair_trials = 600;
@@ -393,7 +395,7 @@ struct SurfaceReport : RunReport {
 
 /// Improves a mesh in place until it meets the criterion. Vertices move in their tangent planes and come back to the
 /// input surface. Edges flip in space, and weights follow by linear programs. Vertices on the boundary, on constrained
-/// edges and on creases stay or slide there, and fixed ones stay. Errors: an option out of range.
+/// edges and on creases stay, or slide along them with may_slide. Fixed vertices stay. Errors: an option out of range.
 [[nodiscard]] Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options = {});
 
 }  // namespace temper::surfaces

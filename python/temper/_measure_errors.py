@@ -28,7 +28,7 @@ class ErrorField(Record):
     """Purpose of the field. An objective may be tuned on the chosen fields. The fields held back then show its true
     value. exact: linear fields, which both schemes must reproduce on any mesh."""
     formula: str
-    """Formula in x and y of the frame, of tetrahedra and curved surfaces also in z."""
+    """Formula in x and y of the frame; for tetrahedra and curved surfaces also in z."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -110,7 +110,7 @@ _KEYS = [f"{name}.{norm}" for name in ("star0", "star1", "star2", "poisson", "fl
 
 
 def error_fields(*, sphere: bool = False, periodic: bool = False, tetrahedra: bool = False) -> list[ErrorField]:
-    """The manufactured solutions of the plane, the sphere, a periodic plane, or tetrahedra and curved surfaces."""
+    """The manufactured solutions of the plane, the sphere, a periodic plane or of tetrahedra: curved surfaces have these."""
     rows = _temper.tet_error_fields() if tetrahedra else _temper.error_fields(sphere, periodic)
     return [ErrorField(**row) for row in rows]
 
@@ -284,8 +284,8 @@ def measure_errors(
     frame : FieldFrame, optional
         Frame of the fields; None: ``field_frame(mesh)``. Use one frame to compare meshes.
     refine : int
-        Number of refinements, each triangle into four; then orders are measured too. For triangles of the plane and the sphere
-        alone, as ``local``.
+        Number of refinements, each triangle into four; then orders are measured too. Neither this nor
+        ``local`` is for tetrahedra or curved surfaces.
     condition : bool
         Also estimate the condition of both matrices.
     local : bool

@@ -151,7 +151,7 @@ def optimize(
         [keep]
     boundary : str, optional
         Treatment of the boundary. ``"keep"``: it stays bit for bit, the default. ``"slide"``: its vertices may move
-        along straight pieces. ``"split"``: long edges next to short ones are cut.
+        along straight pieces, and on curved surfaces along boundary, creases and lines. ``"split"``: long edges next to short ones are cut.
     size_field : SizeField, optional
         Size field to compare sizes with. None: the input's own sizes.
     tensor : sequence of float, (m, 3) array, or dict of region to sequence, optional

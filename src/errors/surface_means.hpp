@@ -8,7 +8,8 @@
 namespace temper::error_detail {
 
 /// The means over an edge and its dual, in the coordinates of direction(). Across the edge they are means of both
-/// triangles, weighted by the heights: so much of the source at the edge flows to either side. There are no potentials.
+/// triangles, weighted by the heights, so the nearer orthocenter gets more of the source at the edge. There are no
+/// potentials.
 [[nodiscard]] EdgeMeans means_on_surface(const Setting& setting, const Field& field, EdgeId e);
 
 /// ∫ u over each signed dual cell, and over each triangle, in the frame.

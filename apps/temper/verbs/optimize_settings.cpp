@@ -79,7 +79,7 @@ void add_common(Command& command, OptimizeSettings& s) {
   add_purpose(command, s);
   add_keep(command, s);
   add_flag_of(command, "boundary", s.assignments).sentence =
-      "The boundary stays bit for bit, or its vertices slide along straight lines and in planes, or its edges are "
+      "The boundary stays bit for bit, or its vertices slide along it, or its edges are split. Curved surfaces have no "
       "split.";
   add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
             "Tags or physical names of vertices that keep their positions.")

@@ -1,5 +1,5 @@
-// Linear programs by Clp (COIN-OR), and convex programs by temper's interior point method, which takes an order of
-// elimination from Eigen, for temper/feasibility.hpp. It is a library of its own, temper::lp.
+// Solves the programs of temper/feasibility.hpp: linear ones by Clp (COIN-OR), convex ones by temper's interior point
+// method. Eigen orders the unknowns. It is a library of its own, temper::lp.
 #pragma once
 
 #include <memory>

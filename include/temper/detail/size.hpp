@@ -93,7 +93,7 @@ struct RelativeLengths {
 };
 /// Precondition: h is not on the boundary, and `sizes` are local_sizes() of the mesh.
 [[nodiscard]] RelativeLengths relative_lengths(const Mesh& mesh, const IdVector<VertexId, double>& sizes, HalfedgeId h);
-/// The same bits, if the sizes are not known. O(degree).
+/// Computes the local sizes of both ends itself, with the same bits. O(degree).
 [[nodiscard]] RelativeLengths relative_lengths(const Mesh& mesh, HalfedgeId h);
 
 /// The distribution of many numbers: percentiles by nearest rank. All are 0 if there are no numbers.

@@ -341,14 +341,13 @@ constexpr OptionRow kConnectivityRows[] = {
         {.needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
     row<&Options::repair_trials>("repair_trials",
                                  "Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as "
-                                 "20, and an edit of a curved "
-                                 "surface as 33",
+                                 "20. On curved surfaces, repairs end after 1/33 of this number of edits without help",
                                  {.cells = CellKinds::all_triangles, .needs = {{{"repair", "perturb|vertices"}}}}),
     row<&Options::boundary>(
         "boundary",
         "Treatment of the boundary. keep: it stays bit for bit. slide: vertices may move along straight pieces; "
-        "vertices of tetrahedra also move in planes, and those of curved surfaces along curves and creases. Corners "
-        "stay. split: cut long edges of the boundary or of "
+        "in tetrahedra also in planes, and on curved surfaces along boundary, creases and lines. Corners stay. split: "
+        "cut long edges of the boundary or of "
         "interfaces, next to much shorter ones, before the sweeps, and with `repair=vertices` also where triangles "
         "stay bad. In tetrahedra, new vertices are on edges and faces, and only if a tetrahedron stays bad without "
         "them. The old vertices stay bit for bit",
@@ -522,8 +521,8 @@ constexpr OptionRow kSurfaceRows[] = {
         {.cells = kForSurfaces, .range = {0, 1}, .common = true}),
     row<kSurfaces, &CurvedSurfaceOptions::crease_angle>(
         "crease_angle",
-        "Angle of creases in degrees. Edges whose triangles turn by more than it stay, with their vertices "
-        "unless `boundary=slide`",
+        "Angle of creases in degrees. A crease is an edge whose triangles turn by more. Its vertices stay, or slide "
+        "along creases with `boundary=slide`",
         {.cells = kForSurfaces, .range = from_to(1, 180), .common = true}),
 };
 

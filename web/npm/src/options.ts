@@ -100,9 +100,9 @@ export interface OptimizeOptions {
   overshoot_factor?: number;
   /** Treatment of triangles that stay invalid. none: nothing. perturb: sweep again with random moves, and find weights by a linear program. vertices: also remove and insert vertices. The best result is kept. Default: "perturb". */
   repair?: "none" | "perturb" | "vertices";
-  /** Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as 20, and an edit of a curved surface as 33; at least 0. Default: 20000. */
+  /** Largest number of edits that repairs try, 1 to 3 ms each. A linear program counts as 20. On curved surfaces, repairs end after 1/33 of this number of edits without help; at least 0. Default: 20000. */
   repair_trials?: number;
-  /** Treatment of the boundary. keep: it stays bit for bit. slide: vertices may move along straight pieces; vertices of tetrahedra also move in planes, and those of curved surfaces along curves and creases. Corners stay. split: cut long edges of the boundary or of interfaces, next to much shorter ones, before the sweeps, and with repair: "vertices" also where triangles stay bad. In tetrahedra, new vertices are on edges and faces, and only if a tetrahedron stays bad without them. The old vertices stay bit for bit. Default: "keep". */
+  /** Treatment of the boundary. keep: it stays bit for bit. slide: vertices may move along straight pieces; in tetrahedra also in planes, and on curved surfaces along boundary, creases and lines. Corners stay. split: cut long edges of the boundary or of interfaces, next to much shorter ones, before the sweeps, and with repair: "vertices" also where triangles stay bad. In tetrahedra, new vertices are on edges and faces, and only if a tetrahedron stays bad without them. The old vertices stay bit for bit. Default: "keep". */
   boundary?: "keep" | "slide" | "split";
   /** Largest ratio of the lengths of two boundary or interface edges that meet, with boundary: "split". Longer edges are cut; at least 2. Default: 4. */
   boundary_ratio?: number;
