@@ -105,24 +105,7 @@ class CellSolver final : public Solver {
     std::vector<Lanes> at_vertices(mesh.n_vertices()), value(mesh.n_triangles()), errors(value.size());
     for (const VertexId v : mesh.vertices()) at_vertices[v.index] = waves.at(mesh.position(v));
     for (const TriangleId t : mesh.triangles()) value[t.index] = waves.at(dec.orthocenters[t]);
-    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
-      const DecEdge& edge = dec.edges[EdgeId(e)];
-      const double coefficient = dec.transmissibility[EdgeId(e)];
-      const Lanes flow = flow_through(waves, edge, at_vertices);
-      if (edge.is_boundary()) {
-        const std::size_t k = inner_triangle(edge).index;
-        const Lanes outside = waves.at(edge.midpoint);
-        for (std::size_t i = 0; i < kLanes; ++i) {
-          errors[k][i] += (edge.left.valid() ? flow[i] : -flow[i]) - coefficient * (value[k][i] - outside[i]);
-        }
-      } else {
-        const std::size_t left = edge.left.index, right = edge.right.index;
-        for (std::size_t i = 0; i < kLanes; ++i) {
-          const double flux = flow[i] - coefficient * (value[left][i] - value[right][i]);
-          errors[left][i] += flux, errors[right][i] -= flux;
-        }
-      }
-    }
+    add_residuals(waves, at_vertices, value, errors);
     const FactoredPoints scheme = factored();
     scheme.matrix.solve(scheme.points, errors);
     const double sum = squared_error(waves.share, dec.areas, errors);
@@ -166,6 +149,29 @@ class CellSolver final : public Solver {
     }
   };
 
+  /// Adds the flow of waves through each edge, less the flux by their values in triangles.
+  void add_residuals(const Waves& waves, const std::vector<Lanes>& at_vertices, const std::vector<Lanes>& value,
+                     std::vector<Lanes>& errors) const {
+    const DecComplex& dec = subject().dec;
+    for (std::size_t e = 0; e < dec.edges.size(); ++e) {
+      const DecEdge& edge = dec.edges[EdgeId(e)];
+      const double coefficient = dec.transmissibility[EdgeId(e)];
+      const Lanes flow = flow_through(waves, edge, at_vertices);
+      if (edge.is_boundary()) {
+        const std::size_t k = inner_triangle(edge).index;
+        const Lanes outside = waves.at(edge.midpoint);
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          errors[k][i] += (edge.left.valid() ? flow[i] : -flow[i]) - coefficient * (value[k][i] - outside[i]);
+        }
+      } else {
+        const std::size_t left = edge.left.index, right = edge.right.index;
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          const double flux = flow[i] - coefficient * (value[left][i] - value[right][i]);
+          errors[left][i] += flux, errors[right][i] -= flux;
+        }
+      }
+    }
+  }
   /// ∫ ∇u · n over an edge, n to its left.
   [[nodiscard]] Lanes flow_through(const Waves& waves, const DecEdge& edge,
                                    const std::vector<Lanes>& at_vertices) const {

@@ -55,7 +55,7 @@ void GrowingSearch::improve_place(TriangleId seed) {
   if (!is_violated(around, settings_.criterion)) return;
   const std::optional<Edit> edit = choose(around);
   if (!edit) return;
-  const TrialResult result = try_edit(around, *edit, settings_, work_.units, true);
+  const TrialResult result = try_edit(around, *edit, settings_, work_.units, {.with_events = true});
   TEMPER_ASSERT(result.valid);  // as without a listener
   splice(work_, flipper_, around, result.events);
 }
@@ -68,7 +68,7 @@ std::optional<Edit> GrowingSearch::choose(const Neighborhood& around) {
     for (const Edit& edit : tier) {
       const bool program = std::holds_alternative<AssignWeights>(edit);
       run_.count_trials(program ? 1 + kTrialsOfAProgram : 1, around.mesh.n_triangles());
-      const TrialResult result = try_edit(around, edit, settings_, work_.units, false);
+      const TrialResult result = try_edit(around, edit, settings_, work_.units);
       if (!result.valid || result.defect.bad >= least) continue;
       best = edit;
       least = result.defect.bad;

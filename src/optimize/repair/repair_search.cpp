@@ -76,7 +76,7 @@ bool RepairSearch::improve_one_place() {
     if (!edit) edit = choose(around, seed);
     if (run_.stopped_early()) return false;
     if (!edit) continue;
-    const TrialResult result = try_edit(around, *edit, settings_, work_.units, true, pace());
+    const TrialResult result = try_edit(around, *edit, settings_, work_.units, {.with_events = true, .pace = pace()});
     TEMPER_ASSERT(result.valid);  // as without a listener
     const std::vector<VertexId> there = splice(work_, flipper_, around, result.events);
     changed_ = triangles_at(work_.mesh, there);
@@ -189,7 +189,7 @@ std::optional<Edit> RepairSearch::choose_forced(const Neighborhood& around, Tria
   for (const Edit& edit : splits_of(around, h, conflict->split_at)) {
     if (run_.repair_trials_left() == 0 || run_.asked_to_stop(0)) return std::nullopt;
     count_trial(around, edit);
-    const TrialResult result = try_edit(around, edit, settings_, work_.units, false, pace());
+    const TrialResult result = try_edit(around, edit, settings_, work_.units, {.pace = pace()});
     if (result.valid) all.push_back({edit, result.defect});
   }
   return finer(std::move(all));
@@ -213,7 +213,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
       count_trial(around, edit);
       std::optional<TrialResult>& result = memo[{i, k}];
       if (!result || std::holds_alternative<Perturb>(edit))
-        result = try_edit(around, edit, settings_, work_.units, false, pace());
+        result = try_edit(around, edit, settings_, work_.units, {.pace = pace()});
       if (!result->valid) continue;
       all.push_back({edit, result->defect});
       if (!helps(least, result->defect)) continue;

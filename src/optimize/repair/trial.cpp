@@ -43,12 +43,12 @@ bool lacks_sweeps(const Edit& edit) {
 class Trial {
  public:
   /// `settings`: by settings_of_copies().
-  Trial(const Neighborhood& around, const Settings& settings, const WorkingUnits& grid, bool with_events, Pace pace)
+  Trial(const Neighborhood& around, const Settings& settings, const WorkingUnits& grid, const TrialOptions& options)
       : around_(around),
         settings_(settings),
         grid_(grid),
-        quick_(pace == Pace::quick),
-        copy_(around, settings, grid, with_events) {}
+        quick_(options.pace == Pace::quick),
+        copy_(around, settings, grid, options.with_events) {}
 
   TrialResult run(const Edit& edit, bool levels) && {
     if (levels && !level_weights()) return {};
@@ -254,14 +254,14 @@ LocalDefect defect_of(const Neighborhood& around, const Mesh& local, const Setti
 }
 
 TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings, const WorkingUnits& grid,
-                     bool with_events, Pace pace) {
+                     const TrialOptions& options) {
   const Settings of_trial = settings_of_copies(settings);
-  TrialResult result = Trial(around, of_trial, grid, with_events, pace).run(edit, false);
+  TrialResult result = Trial(around, of_trial, grid, options).run(edit, false);
   const Space& space = around.mesh.space();
   const bool may_level = inserts_vertices(edit) && !lacks_sweeps(edit) && space.is_plane() && !space.is_periodic() &&
                          settings.options.unknowns != Unknowns::positions;
   if (result.valid || !may_level) return result;
-  return Trial(around, of_trial, grid, with_events, pace).run(edit, true);
+  return Trial(around, of_trial, grid, options).run(edit, true);
 }
 
 }  // namespace temper

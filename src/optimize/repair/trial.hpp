@@ -82,10 +82,16 @@ enum class Pace {
   thorough  ///< All sweeps
 };
 
+/// How a trial is made.
+struct TrialOptions {
+  bool with_events = false;  ///< Record what it does
+  Pace pace = Pace::thorough;
+};
+
 /// Applies the edit to a copy of the neighborhood and optimizes it. If new vertices are not possible with the present
 /// weights, tries again with level weights of all vertices that are not frozen. `grid`: the whole mesh's, for
 /// positions.
 [[nodiscard]] TrialResult try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings,
-                                   const WorkingUnits& grid, bool with_events, Pace pace = Pace::thorough);
+                                   const WorkingUnits& grid, const TrialOptions& options = {});
 
 }  // namespace temper

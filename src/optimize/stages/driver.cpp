@@ -283,7 +283,7 @@ std::size_t Driver::refine_where_bad(double factor) {
     if (!at.triangle.valid()) continue;
     near = at.triangle;
     const Neighborhood around = neighborhood_of(work_, near, kRingsAround);
-    const TrialResult refined = try_edit(around, edit, settings_, work_.units, true);
+    const TrialResult refined = try_edit(around, edit, settings_, work_.units, {.with_events = true});
     if (!refined.valid) continue;
     splice(work_, flipper_, around, refined.events);
     grow();

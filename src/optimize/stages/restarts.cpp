@@ -98,7 +98,8 @@ bool repairs_in_place(const Candidate& c, const Settings& settings) {
 }
 
 /// Searches for repairs several times, each with other random choices, and returns the best mesh.
-Candidate searched(Candidate best, Pace pace, const Settings& settings, SweepState& state, Run& run, TrialMemo& memo) {
+Candidate searched(Candidate best, Pace pace, const Settings& settings, SweepState& state, Run& run) {
+  TrialMemo memo;
   const std::uint64_t searches = settings.lp != nullptr ? kSearches + 1 : kSearches;
   std::optional<Candidate> start;  // beginning of all searches on copies, if it is no longer the best mesh
   const bool in_place = repairs_in_place(best, settings);
@@ -296,17 +297,16 @@ Candidate repaired(Candidate best, const Settings& settings, SweepState& state, 
       !std::isfinite(total_energy(best.work.mesh, state.model))) {
     return best;
   }
-  TrialMemo memo;
-  if (repairs_in_place(best, settings)) return searched(std::move(best), Pace::thorough, settings, state, run, memo);
+  if (repairs_in_place(best, settings)) return searched(std::move(best), Pace::thorough, settings, state, run);
   std::optional<Candidate> quick;
   if (settings.guard != nullptr) {
-    quick = searched(best, Pace::quick, settings, state, run, memo);
+    quick = searched(best, Pace::quick, settings, state, run);
     const std::size_t left = count_bad(quick->work.mesh, settings.executor());
     if (left == 0 || left > kFew || !run.goes_on()) return polished(*std::move(quick), settings, state, run);
     run.renew_trials();
     Driver(best.work, settings, state, run).recorder().returned_to(best.sweep);
   }
-  best = searched(std::move(best), Pace::thorough, settings, state, run, memo);
+  best = searched(std::move(best), Pace::thorough, settings, state, run);
   if (quick && !replaces(best.work, quick->work, Requirement::fewer_bad, settings, state.model)) {
     best = *std::move(quick);
     Driver(best.work, settings, state, run).recorder().returned_to(best.sweep);

@@ -52,7 +52,8 @@ TEST(RepairByProgram, OfAPlaceChangesWeightsNearItAndNoneOfTheRim) {
   std::size_t cured = 0;
   for (std::size_t t = 0; t < mesh.n_triangles(); t += 37) {
     const Neighborhood around = neighborhood_of(WorkingCopy::part(mesh), TriangleId(t), 3);
-    const TrialResult result = try_edit(around, AssignWeights{}, *settings, WorkingUnits::of(mesh), true);
+    const TrialResult result =
+        try_edit(around, AssignWeights{}, *settings, WorkingUnits::of(mesh), {.with_events = true});
     if (!result.valid) continue;
     cured += result.defect < defect_of(around.mesh) ? 1 : 0;
     for (const TraceEvent& e : result.events) {

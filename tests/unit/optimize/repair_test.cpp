@@ -446,7 +446,7 @@ TEST(Trial, SplitsLinesOnBothSidesAndKeepsThemExactly) {
   std::size_t valid = 0, inside = 0;
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_unflippable(h) || !mesh.is_edge_representative(h)) continue;
-    const TrialResult result = try_edit(around, Split{h, 0.4}, settings, WorkingUnits(), true);
+    const TrialResult result = try_edit(around, Split{h, 0.4}, settings, WorkingUnits(), {.with_events = true});
     if (!result.valid) continue;
     ++valid;
     inside += mesh.is_boundary(h) ? 0 : 1;
@@ -482,13 +482,13 @@ TEST(Trial, CutsAllLinesOfACornerAtOneDistance) {
   const Edit edit = CutCorner{corner, 50};
   Settings settings = splitting_settings(mesh);
   settings.options.unknowns = Unknowns::weights;  // new vertices stay where they are put
-  const TrialResult result = try_edit(around, edit, settings, WorkingUnits(), true);
+  const TrialResult result = try_edit(around, edit, settings, WorkingUnits(), {.with_events = true});
   const auto after = replay(mesh, result.events);
   ASSERT_TRUE(after);
   ASSERT_EQ(after->n_vertices(), 5u);
   for (const std::size_t i : {3U, 4U}) EXPECT_NEAR(length(after->position(VertexId(i))), 50, 1e-4);
   const Edit too_far = CutCorner{corner, 99};
-  EXPECT_FALSE(try_edit(around, too_far, settings, WorkingUnits(), false).valid);
+  EXPECT_FALSE(try_edit(around, too_far, settings, WorkingUnits()).valid);
 }
 
 TEST(Trial, RemovesAndSlidesVerticesOfTheRunOnLinesAndNoOthers) {
@@ -569,7 +569,7 @@ TEST(Trial, RefinesLinesOnlyIfItMay) {
   const Settings settings = splitting_settings(around.mesh);
   for (const bool splits : {false, true}) {
     const Edit edit = Refine{.sizes = {0.6, 0.3}, .splits_lines = splits, .sweeps = false};
-    const TrialResult result = try_edit(around, edit, settings, WorkingUnits(), true);
+    const TrialResult result = try_edit(around, edit, settings, WorkingUnits(), {.with_events = true});
     ASSERT_TRUE(result.valid);
     const auto after = replay(around.mesh, result.events);
     ASSERT_TRUE(after);
@@ -656,8 +656,8 @@ TEST(Trial, LeavesFrozenVerticesAndTellsWhatItDid) {
     const auto [a, b, c] = around.mesh.corners(TriangleId(0));
     const Vec2 middle = (1.0 / 3) * (around.mesh.position(a) + around.mesh.position(b) + around.mesh.position(c));
     const Edit edit = Insert{TriangleId(0), {middle.x, middle.y}};
-    const TrialResult quiet = try_edit(around, edit, settings, WorkingUnits(), false);
-    const TrialResult told = try_edit(around, edit, settings, WorkingUnits(), true);
+    const TrialResult quiet = try_edit(around, edit, settings, WorkingUnits());
+    const TrialResult told = try_edit(around, edit, settings, WorkingUnits(), {.with_events = true});
     EXPECT_EQ(quiet.valid, told.valid);
     EXPECT_EQ(quiet.defect, told.defect);
     if (!told.valid) continue;
@@ -684,9 +684,9 @@ TEST(Trial, IsGivenUpEarlyOnlyIfQuickAndNextToBadTriangles) {
     const auto [a, b, c] = around.mesh.corners(TriangleId(0));
     const Vec2 middle = (1.0 / 3) * (around.mesh.position(a) + around.mesh.position(b) + around.mesh.position(c));
     const Edit edit = Insert{TriangleId(0), {middle.x, middle.y}};
-    const TrialResult quick = try_edit(around, edit, settings, WorkingUnits(), false, Pace::quick);
+    const TrialResult quick = try_edit(around, edit, settings, WorkingUnits(), {.pace = Pace::quick});
     made += quick.valid ? 1 : 0;
-    if (quick.valid || !try_edit(around, edit, settings, WorkingUnits(), false).valid) continue;
+    if (quick.valid || !try_edit(around, edit, settings, WorkingUnits()).valid) continue;
     EXPECT_GT(defect_of(around.mesh).bad, 0u);
     ++given_up;
   }
