@@ -9,7 +9,7 @@
 namespace temper {
 
 /// Around the points that have been added; low is beyond high before the first.
-struct Box {
+struct PlaneBox {
   Vec2 low = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, high = -1.0 * low;
 
   void add(Vec2 p) {

@@ -70,11 +70,11 @@ inline std::uint64_t cube_hilbert_index(Vec3 p) {
 class HilbertGrid {
  public:
   explicit HilbertGrid(std::span<const Vec2> points) {
-    Box box;
+    PlaneBox box;
     for (const Vec2 p : points) box.add(p);
     *this = HilbertGrid(box);
   }
-  explicit HilbertGrid(const Box& box) : low_(box.low) {
+  explicit HilbertGrid(const PlaneBox& box) : low_(box.low) {
     const double extent = box.longer_side();
     cells_per_length_ = extent > 0 ? (static_cast<double>(1u << kHilbertBits) - 1) / extent : 0;
   }

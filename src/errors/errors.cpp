@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/box.hpp"
 #include "errors/poisson.hpp"
 #include "geometry/bounding_boxes.hpp"
 #include "temper/dec.hpp"
@@ -155,18 +156,16 @@ Measured measure(const Setting& setting, const std::vector<Field>& fields, bool 
 
 FieldFrame field_frame(const Mesh& mesh) {
   if (mesh.space().radius() > 0) return {{0, 0}, mesh.space().radius()};
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  BoundingBox box = {{kInfinity, kInfinity, 0}, {-kInfinity, -kInfinity, 0}};
+  PlaneBox box;
   for (const VertexId v : mesh.vertices()) {
-    const Vec3 p = {mesh.position(v).x, mesh.position(v).y, 0};
-    if (!mesh.is_isolated(v)) box = united(box, {p, p});
+    if (!mesh.is_isolated(v)) box.add(mesh.position(v));
   }
-  Vec2 low = {box.low.x, box.low.y}, high = {box.high.x, box.high.y};
+  auto& [low, high] = box;
   if (low.x > high.x) return {};  // no vertex of a triangle
   const Vec2 period = mesh.space().period();
   if (period.x > 0) low.x = 0, high.x = period.x;
   if (period.y > 0) low.y = 0, high.y = period.y;
-  return {0.5 * low + 0.5 * high, 0.5 * std::max(high.x - low.x, high.y - low.y)};
+  return {0.5 * low + 0.5 * high, 0.5 * box.longer_side()};
 }
 
 Expected<ErrorReport> measure_errors(const Mesh& mesh, const MeasureErrorsOptions& options) {
@@ -187,9 +186,7 @@ Expected<ErrorReport> measure_errors(const Mesh& mesh, const MeasureErrorsOption
 namespace surfaces {
 
 FieldFrame field_frame(const SurfaceMesh& mesh) {
-  if (mesh.n_vertices() == 0) return {};
-  BoundingBox box = {mesh.position(VertexId(0)), mesh.position(VertexId(0))};
-  for (const VertexId v : mesh.vertices()) box = united(box, {mesh.position(v), mesh.position(v)});
+  const BoundingBox box = bounding_box(mesh);
   const Vec3 sides = box.high - box.low;
   return {0.5 * box.low + 0.5 * box.high, 0.5 * sides.*(box.longest())};
 }

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "errors/poisson.hpp"
+#include "geometry/bounding_boxes.hpp"
 #include "temper/tets/errors.hpp"
 #include "temper/tets/operators.hpp"
-#include "tets/mesh/box.hpp"
 
 namespace temper::tets {
 namespace {

@@ -9,7 +9,7 @@ namespace temper {
 namespace {
 
 double squared_size(const Mesh& mesh) {
-  Box box;
+  PlaneBox box;
   for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
   return squared_length(box.high - box.low);
 }

@@ -19,7 +19,7 @@ class LemmaTerms : public WeightDifferences {
  public:
   LemmaTerms(const Mesh& mesh, const Scale& scale, Constraints constraints)
       : mesh_(mesh), scale_(scale), constraints_(constraints) {
-    Box box;
+    PlaneBox box;
     for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
     const Vec2 size = box.high - box.low;
     size_ = {scale.coordinate(size.x), scale.coordinate(size.y)};

@@ -54,7 +54,7 @@ double boundary_spacing(const Polygon& polygon, std::size_t n) {
 
 /// Adds uniformly random points up to n in all. If the gap leaves no room, it is halved.
 void fill(std::vector<Vec2>& points, std::size_t n, const Polygon& polygon, double spacing, Rng& rng) {
-  Box box;
+  PlaneBox box;
   for (const Vec2 p : polygon) box.add(p);
   double gap = kBoundaryGap * spacing;
   for (std::size_t misses = 0; points.size() < n;) {

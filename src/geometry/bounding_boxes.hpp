@@ -39,6 +39,19 @@ struct BoundingBox {
 }
 /// Around two points.
 [[nodiscard]] inline BoundingBox box_of(Vec3 a, Vec3 b) { return united({a, a}, {b, b}); }
+/// Around some vertices of a mesh in space; the origin if there are none.
+template <class AnyMesh, class Vertices>
+[[nodiscard]] BoundingBox bounding_box(const AnyMesh& mesh, const Vertices& vertices) {
+  if (vertices.begin() == vertices.end()) return {};
+  const Vec3 first = mesh.position(*vertices.begin());
+  BoundingBox box = {first, first};
+  for (const auto v : vertices) box = united(box, {mesh.position(v), mesh.position(v)});
+  return box;
+}
+template <class AnyMesh>
+[[nodiscard]] BoundingBox bounding_box(const AnyMesh& mesh) {
+  return bounding_box(mesh, mesh.vertices());
+}
 
 class BoundingBoxTree {
  public:

@@ -36,7 +36,7 @@ std::vector<TriangleId> along_curve(const Mesh& mesh) {
     low = min_of(low, position_of(mesh, v));
     high = max_of(high, position_of(mesh, v));
   }
-  const HilbertGrid curve(Box{{low.x, low.y}, {high.x, high.y}});
+  const HilbertGrid curve(PlaneBox{{low.x, low.y}, {high.x, high.y}});
   std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
   keyed.reserve(mesh.n_triangles());
   for (const TriangleId t : mesh.triangles()) {

@@ -87,7 +87,7 @@ IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh, Executor* exe
   };
   if (mesh.space().dimension() == 3)
     return sorted(kCubeBits, [&](VertexId v) { return cube_hilbert_index(mesh.weighted_vector(v)); });
-  Box box;
+  PlaneBox box;
   for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
   return sorted(2 * kHilbertBits, [&, curve = HilbertGrid(box)](VertexId v) { return curve(mesh.position(v)); });
 }

@@ -100,7 +100,7 @@ std::optional<InputError> check_scale(const NamedInput& input) {
   if (input.on_sphere()) return check_sphere(input);
   if (auto error = check_periods(input)) return error;
   if (auto error = check_coordinates(input, {kSmallestCoordinate, kLargestCoordinate})) return error;
-  Box box;
+  PlaneBox box;
   double largest = 0;
   for (const Vec2 p : input.in.points) {
     box.add(p);

@@ -16,7 +16,7 @@ constexpr std::size_t kVerticesPerSample = 16;  // the keys of the samples give 
 /// Keys along a curve whose grid is shifted by a part of the longer side of the box of the mesh, or of its cell.
 class ShiftedCurve {
  public:
-  ShiftedCurve(const Mesh& mesh, const Box& box, double part)
+  ShiftedCurve(const Mesh& mesh, const PlaneBox& box, double part)
       : ShiftedCurve(mesh.space().period(), box, part, longer_side(mesh.space().period(), box)) {}
 
   std::uint64_t operator()(Vec2 p) const {
@@ -25,13 +25,13 @@ class ShiftedCurve {
 
  private:
   // Around a period the curve begins elsewhere, on the grid of the cell.
-  ShiftedCurve(Vec2 period, const Box& box, double part, double side)
+  ShiftedCurve(Vec2 period, const PlaneBox& box, double part, double side)
       : period_(period),
         low_(box.low),
         shift_{part * (period.x > 0 ? period.x : side), part * (period.y > 0 ? period.y : side)},
-        curve_(Box{{0, 0}, {2 * side, 2 * side}}) {}
+        curve_(PlaneBox{{0, 0}, {2 * side, 2 * side}}) {}
 
-  static double longer_side(Vec2 period, const Box& box) {
+  static double longer_side(Vec2 period, const PlaneBox& box) {
     const Vec2 size = box.high - box.low;
     return std::max(period.x > 0 ? period.x : size.x, period.y > 0 ? period.y : size.y);
   }
@@ -72,7 +72,7 @@ std::vector<PartNumber> parts_along(const Mesh& mesh, std::size_t count, Executo
 
 void ShiftedPartitions::cut(const Mesh& mesh, std::size_t count, Executor& executor) {
   n_parts_ = std::min<std::size_t>(count, std::numeric_limits<PartNumber>::max());
-  Box box;
+  PlaneBox box;
   for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
   for (std::size_t k = 0; k < kPartitions; ++k) {
     if (mesh.space().is_plane()) {

@@ -22,7 +22,7 @@ WorkingUnits WorkingUnits::of(const Mesh& mesh) {
     units.scale = std::exp2(std::ilogb(mesh.space().radius()));
     return units;
   }
-  Box box;
+  PlaneBox box;
   for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
   const auto& [low, high] = box;
   const Vec2 period = mesh.space().period();

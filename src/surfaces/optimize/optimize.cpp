@@ -41,9 +41,7 @@ std::optional<InputError> expect_options(const SurfaceOptions& o) {
 }
 
 double diagonal_of(const SurfaceMesh& mesh) {
-  if (mesh.n_vertices() == 0) return 0;
-  BoundingBox box = {mesh.position(VertexId(0)), mesh.position(VertexId(0))};
-  for (const VertexId v : mesh.vertices()) box = united(box, {mesh.position(v), mesh.position(v)});
+  const BoundingBox box = bounding_box(mesh);
   return length(box.high - box.low);
 }
 

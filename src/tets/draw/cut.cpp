@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "base/text.hpp"
-#include "tets/mesh/box.hpp"
+#include "geometry/bounding_boxes.hpp"
 #include "tets/quality/measure.hpp"
 
 namespace temper::tets {
@@ -114,12 +114,12 @@ Section section_of(const TetMesh& mesh, const Plane& plane, const TetMesh& measu
 }
 
 Plane middle_plane(const TetMesh& mesh, int axis) {
-  const Box3 box = bounding_box(mesh);
+  const BoundingBox box = bounding_box(mesh);
   return {axis, 0.5 * (along(box.low, axis) + along(box.high, axis))};
 }
 
 Plane middle_plane(const TetMesh& mesh) {
-  const Box3 box = bounding_box(mesh);
+  const BoundingBox box = bounding_box(mesh);
   int shortest = 2;
   for (const int axis : {1, 0}) {
     if (along(box.high - box.low, axis) < along(box.high - box.low, shortest)) shortest = axis;
@@ -128,7 +128,7 @@ Plane middle_plane(const TetMesh& mesh) {
 }
 
 Expected<Plane> plane_through(const TetMesh& mesh, int axis, double at) {
-  const Box3 box = bounding_box(mesh);
+  const BoundingBox box = bounding_box(mesh);
   const double low = along(box.low, axis), high = along(box.high, axis);
   if (low < at && at <= high) return Plane{axis, at};
   const std::string name = kAxes[static_cast<std::size_t>(axis)];

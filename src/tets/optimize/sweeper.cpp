@@ -9,7 +9,7 @@
 #include "base/compiler.hpp"
 #include "base/instruction_set_choice.hpp"
 #include "base/sum.hpp"
-#include "tets/mesh/box.hpp"
+#include "geometry/bounding_boxes.hpp"
 #include "tets/quality/duals.hpp"
 #include "tets/quality/measure.hpp"
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/assert.hpp"
+#include "geometry/bounding_boxes.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/tets/location.hpp"
 #include "temper/tets/transfer.hpp"
-#include "tets/mesh/box.hpp"
 #include "tets/transfer/pieces.hpp"
 #include "transfer/table.hpp"
 
@@ -40,7 +40,7 @@ std::uint32_t spread_bits(std::uint32_t x) {
 /// The tetrahedra of a mesh along a curve, so that blocks are compact.
 std::vector<TetId> along_curve(const TetMesh& mesh) {
   static constexpr double kMost = 1023;  // of ten bits
-  const Box3 box = bounding_box(mesh);
+  const BoundingBox box = bounding_box(mesh);
   const auto cell = [](double x, double low, double high) {
     return static_cast<std::uint32_t>(high > low ? std::clamp(kMost * (x - low) / (high - low), 0.0, kMost) : 0);
   };
