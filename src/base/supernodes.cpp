@@ -154,7 +154,7 @@ void SupernodalCholesky::find_supernodes(const std::vector<int>& parent, const s
   }
 }
 
-/// The rows of a supernode are its own columns, those of the matrix, and those of its children.
+/// A supernode has the rows of its own columns, rows of the matrix below them, and rows of its children.
 void SupernodalCholesky::find_rows(const std::vector<int>& starts, const std::vector<int>& columns) {
   std::vector<std::vector<int>> below(supernodes_.size()), children(supernodes_.size());
   for (int row = 0; row + 1 < static_cast<int>(starts.size()); ++row) {
@@ -265,10 +265,13 @@ bool SupernodalCholesky::factor_panel(const Supernode& s) {
   return true;
 }
 
-void SupernodalCholesky::solve(double* x) const {
+void SupernodalCholesky::solve(std::span<double> x) const {
   const PanelKernels& kernels = *TEMPER_IN_USE(kPanelKernels);
-  for (const Supernode& s : supernodes_) kernels.forward(panel(s), x);
-  for (std::size_t i = supernodes_.size(); i-- > 0;) kernels.backward(panel(supernodes_[i]), x);
+  std::vector<double> in_order(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) in_order[place(i)] = x[i];
+  for (const Supernode& s : supernodes_) kernels.forward(panel(s), in_order.data());
+  for (std::size_t i = supernodes_.size(); i-- > 0;) kernels.backward(panel(supernodes_[i]), in_order.data());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = in_order[place(i)];
 }
 
 void SupernodalCholesky::solve_lanes(double* x) const {

@@ -14,8 +14,8 @@ namespace temper {
 /// The least multiple of kLanes that is not below m.
 TEMPER_INLINE constexpr std::size_t padded(std::size_t m) { return (m + kLanes - 1) / kLanes * kLanes; }
 
-/// Dense columns of L one after the other: `columns` of them, with `rows` numbers each. The first rows are those of the
-/// columns themselves. Behind the last number of L are kLanes more, which kernels may read.
+/// Dense columns of L one after the other: `columns` of them, with `rows` numbers each. The first rows have the
+/// numbers of the columns. Behind the last number of L are kLanes more, which kernels may read.
 struct Panel {
   const double* values = nullptr;
   std::size_t rows = 0, columns = 0;
@@ -49,8 +49,9 @@ class SupernodalCholesky {
 
   /// Where an unknown is in the order of elimination.
   [[nodiscard]] std::size_t place(std::size_t unknown) const { return static_cast<std::size_t>(place_[unknown]); }
-  /// Solves in place, for one right side or for kLanes ones side by side, in the order of elimination.
-  void solve(double* x) const;
+  /// Solves in place for one right side, in the order of the unknowns.
+  void solve(std::span<double> x) const;
+  /// Solves in place for kLanes right sides, side by side, in the order of elimination.
   void solve_lanes(double* x) const;
 
  private:

@@ -184,16 +184,12 @@ class Definite {
   }
   [[nodiscard]] bool is_definite() const { return is_definite_; }
   [[nodiscard]] Vector solve(const Vector& right) const {
-    Vector in_order(right.size()), x(right.size());
-    for (Index i = 0; i < x.size(); ++i) in_order[place(i)] = right[i];
-    l_.solve(in_order.data());
-    for (Index i = 0; i < x.size(); ++i) x[i] = in_order[place(i)];
+    Vector x = right;
+    l_.solve({x.data(), static_cast<std::size_t>(x.size())});
     return x;
   }
 
  private:
-  [[nodiscard]] Index place(Index i) const { return static_cast<Index>(l_.place(static_cast<std::size_t>(i))); }
-
   SupernodalCholesky l_;
   bool is_definite_ = false;
 };
@@ -254,10 +250,7 @@ bool Cholesky::factor(std::size_t unknowns, const std::vector<MatrixEntry>& lowe
 }
 
 void Cholesky::solve(std::vector<double>& right) const {
-  std::vector<double> x(right.size());
-  for (std::size_t i = 0; i < x.size(); ++i) x[factors_->l.place(i)] = right[i];
-  if (!x.empty()) factors_->l.solve(x.data());
-  for (std::size_t i = 0; i < x.size(); ++i) right[i] = x[factors_->l.place(i)];
+  if (!right.empty()) factors_->l.solve(right);
 }
 
 void Cholesky::solve(const PointSystem& points, std::vector<Lanes>& at_points) const {

@@ -153,13 +153,8 @@ class NewtonMatrix {
     cholesky_.analyze({places.begin(), places.end()}, entries);
   }
   [[nodiscard]] Vector solved(const Vector& right) const {
-    Vector in_order(right.size()), x(right.size());
-    const auto at = [&](Index i) -> double& {
-      return in_order[static_cast<Index>(cholesky_.place(static_cast<std::size_t>(i)))];
-    };
-    for (Index i = 0; i < x.size(); ++i) at(i) = right[i];
-    cholesky_.solve(in_order.data());
-    for (Index i = 0; i < x.size(); ++i) x[i] = at(i);
+    Vector x = right;
+    cholesky_.solve({x.data(), static_cast<std::size_t>(x.size())});
     return x;
   }
 

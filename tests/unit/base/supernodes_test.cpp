@@ -61,15 +61,14 @@ std::vector<int> shuffled(std::size_t n, std::uint64_t seed) {
 
 /// Solutions of one right side, and of eight multiples of it.
 std::vector<double> solutions(const Sparse& a, const SupernodalCholesky& l, const std::vector<double>& right) {
-  std::vector<double> one(a.n), lanes(kLanes * a.n), all;
+  std::vector<double> one = right, lanes(kLanes * a.n), all;
   for (std::size_t i = 0; i < a.n; ++i) {
-    one[l.place(i)] = right[i];
     for (std::size_t k = 0; k < kLanes; ++k) lanes[kLanes * l.place(i) + k] = static_cast<double>(k) * right[i];
   }
-  l.solve(one.data());
+  l.solve(one);
   l.solve_lanes(lanes.data());
   for (std::size_t i = 0; i < a.n; ++i) {
-    all.push_back(one[l.place(i)]);
+    all.push_back(one[i]);
     for (std::size_t k = 0; k < kLanes; ++k) all.push_back(lanes[kLanes * l.place(i) + k]);
   }
   return all;
