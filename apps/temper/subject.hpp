@@ -107,7 +107,7 @@ struct Surfaces {
 
 /// F(Subject) for each kind: sources of templates make them for all kinds with it.
 #define TEMPER_EACH_SUBJECT(F) TEMPER_EACH_FLAT_SUBJECT(F) F(Surfaces)
-/// The same for the kinds that have tensors.
+/// F(Subject) for each kind that has tensors.
 #define TEMPER_EACH_FLAT_SUBJECT(F) F(Triangles) F(Tetrahedra)
 template <class Subject>
 inline constexpr bool is_flat_subject = !std::is_same_v<Subject, Surfaces>;

@@ -10,11 +10,10 @@ namespace temper::app {
 namespace {
 
 std::string coordinates_text(Vec2 at) { return fmt::format("{:.9g}, {:.9g}", at.x, at.y); }
-std::string coordinates_text(Vec3 at);
+std::string coordinates_text(Vec3 at) { return fmt::format("{:.9g}, {:.9g}, {:.9g}", at.x, at.y, at.z); }
 std::string coordinates_text(const EdgePlace& place) {
   return place.z ? coordinates_text(Vec3{place.at.x, place.at.y, *place.z}) : coordinates_text(place.at);
 }
-std::string coordinates_text(Vec3 at) { return fmt::format("{:.9g}, {:.9g}, {:.9g}", at.x, at.y, at.z); }
 
 /// The duals that a criterion does not allow, and the worst.
 template <std::size_t n, class Place>

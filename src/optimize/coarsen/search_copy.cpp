@@ -109,7 +109,7 @@ bool SearchCopy::assign_weights() {
 
 LocalDefect SearchCopy::sweep() {
   LocalDefect defect;
-  copy_.sweep(false, [&](int sweep, double gamma) {
+  copy_.sweep(Pace::thorough, [&](int sweep, double gamma) {
     defect = defect_of(mesh());
     const bool hopeless = sweep + 1 >= kFirstSweeps && defect.violation > violation_before_ + kHopeless * gamma;
     return defect.bad == 0 || hopeless;

@@ -347,10 +347,9 @@ constexpr OptionRow kConnectivityRows[] = {
         "boundary",
         "Treatment of the boundary. keep: it stays bit for bit. slide: vertices may move along straight pieces; "
         "in tetrahedra also in planes, and on curved surfaces along boundary, creases and lines. Corners stay. split: "
-        "cut long edges of the boundary or of "
-        "interfaces, next to much shorter ones, before the sweeps, and with `repair=vertices` also where triangles "
-        "stay bad. In tetrahedra, new vertices are on edges and faces, and only if a tetrahedron stays bad without "
-        "them. The old vertices stay bit for bit",
+        "cut long edges of the boundary or of interfaces, next to much shorter ones, before the sweeps, and with "
+        "`repair=vertices` also where triangles stay bad. In tetrahedra, new vertices are on edges and faces, and only "
+        "if a tetrahedron stays bad without them. The old vertices stay bit for bit",
         {.cells = kAll, .for_surfaces = "keep|slide", .common = true}),
     row<&Options::boundary_ratio>("boundary_ratio",
                                   "Largest ratio of the lengths of two boundary or interface edges that meet, with "

@@ -27,6 +27,12 @@ namespace temper {
   return frozen[v.index] == 0 && may_be_removed(mesh, v, divided.contains(v));
 }
 
+/// The time that sweeps of a copy may take.
+enum class Pace {
+  quick,    ///< Fewer sweeps, and an early end if an edit is unlikely to help
+  thorough  ///< All sweeps
+};
+
 class LocalCopy {
  public:
   /// `settings`: by settings_of_copies(). `grid`: the whole mesh's, for positions.
@@ -56,9 +62,9 @@ class LocalCopy {
   void shake(double amount, Rng& rng) { step_.shake(amount, rng); }
 
   /// Sweeps of E_BP with a shrinking γ, until `ends`(sweep, γ of the next sweep) says so, or γ has been at its floor
-  /// for a few sweeps. `quick`: γ shrinks faster.
+  /// for a few sweeps. γ shrinks faster at a quick pace.
   template <class Ends>
-  void sweep(bool quick, const Ends& ends);
+  void sweep(Pace pace, const Ends& ends);
   /// Says whether the last sweep has moved a vertex.
   [[nodiscard]] bool has_moved() const { return step_.has_moved(); }
 
@@ -102,7 +108,8 @@ class LocalCopy {
 [[nodiscard]] Settings settings_of_copies(const Settings& settings);
 
 template <class Ends>
-void LocalCopy::sweep(bool quick, const Ends& ends) {
+void LocalCopy::sweep(Pace pace, const Ends& ends) {
+  const bool quick = pace == Pace::quick;
   double gamma = kFirstGamma;
   const int most = quick ? kMostQuickSweeps : settings_.guard == nullptr ? kMostSweeps : kMostGuardedSweeps;
   for (int i = 0; i < most; ++i) {

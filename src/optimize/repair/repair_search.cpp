@@ -80,8 +80,7 @@ bool RepairSearch::improve_one_place() {
     TEMPER_ASSERT(result.valid);  // as without a listener
     const std::vector<VertexId> there = splice(work_, flipper_, around, result.events);
     changed_ = triangles_at(work_.mesh, there);
-    has_new_numbers_ = flipper_.has_removed();
-    std::erase_if(weighed_, [&](TriangleId t) { return has_new_numbers_ || is_changed(t); });
+    std::erase_if(weighed_, [&](TriangleId t) { return flipper_.has_removed() || is_changed(t); });
     return true;
   }
   return false;
@@ -99,10 +98,6 @@ void RepairSearch::renumber(const Compaction& kept) {
   follow(bad_);
   if (short_) follow(*short_);
   if (changed_) follow(*changed_);
-}
-
-std::optional<std::vector<TriangleId>> RepairSearch::changed() const {
-  return has_new_numbers_ ? std::nullopt : changed_;
 }
 
 /// Looks again at the place of the last edit. Duals also change next to it.

@@ -39,8 +39,8 @@ class RepairSearch {
   bool improve_one_place();
   /// Follows that compaction.
   void renumber(const Compaction& kept);
-  /// Returns the present triangles of that place. Returns none if triangles have new numbers.
-  [[nodiscard]] std::optional<std::vector<TriangleId>> changed() const;
+  /// Returns the present triangles of that place.
+  [[nodiscard]] const std::optional<std::vector<TriangleId>>& changed() const { return changed_; }
 
  private:
   struct Tried {
@@ -81,7 +81,6 @@ class RepairSearch {
   std::vector<TriangleId> bad_;
   std::optional<std::vector<TriangleId>> short_;  // triangles whose edges lack length, once all bad ones are cured
   std::optional<std::vector<TriangleId>> changed_;
-  bool has_new_numbers_ = false;  // since that edit
 };
 
 /// Says whether these options ask for repairs and allow them.

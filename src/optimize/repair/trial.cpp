@@ -47,7 +47,7 @@ class Trial {
       : around_(around),
         settings_(settings),
         grid_(grid),
-        quick_(options.pace == Pace::quick),
+        pace_(options.pace),
         copy_(around, settings, grid, options.with_events) {}
 
   TrialResult run(const Edit& edit, bool levels) && {
@@ -207,8 +207,8 @@ class Trial {
     const int doubt = by_cells ? kSweepsOfDoubtByCells : kSweepsOfDoubt;
     const auto is_good = [&](TriangleId t) { return !is_bad(mesh, t); };
     const auto all = mesh.triangles();
-    copy_.sweep(quick_, [&](int i, double gamma) {
-      if (quick_ && i + 1 == doubt && is_hopeless()) return hopeless = true;
+    copy_.sweep(pace_, [&](int i, double gamma) {
+      if (pace_ == Pace::quick && i + 1 == doubt && is_hopeless()) return hopeless = true;
       if (settings_.guard != nullptr && !copy_.has_moved()) return true;  // it refuses all steps
       if (settings_.criterion != Criterion::well_centered)
         return violated_edges(around_, mesh, settings_.criterion).empty();
@@ -221,7 +221,7 @@ class Trial {
   const Neighborhood& around_;
   const Settings& settings_;
   const WorkingUnits& grid_;
-  const bool quick_;
+  const Pace pace_;
   LocalCopy copy_;
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "optimize/options/settings.hpp"
+#include "optimize/repair/local_copy.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/refinement.hpp"
 
@@ -77,12 +78,7 @@ struct TrialResult {
   std::vector<TraceEvent> events;  ///< if requested; in local numbers, new vertices last
 };
 
-enum class Pace {
-  quick,    ///< Fewer sweeps, and an early end if the edit is unlikely to help
-  thorough  ///< All sweeps
-};
-
-/// How a trial is made.
+/// What try_edit() may save, and what it must record.
 struct TrialOptions {
   bool with_events = false;  ///< Record what it does
   Pace pace = Pace::thorough;

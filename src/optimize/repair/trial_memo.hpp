@@ -26,7 +26,7 @@ class TrialMemo {
   [[nodiscard]] Results& at(const Neighborhood& around, Pace pace);
 
  private:
-  // A place takes about 5 kB. Searches rarely come back to a place after so many others.
+  // A place takes about 5 kB. After this number of other places, a search rarely comes back to one.
   static constexpr std::size_t kMostPlaces = 4096;
 
   std::unordered_map<std::string, Results> places_;

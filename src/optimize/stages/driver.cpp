@@ -350,11 +350,12 @@ bool Driver::repair(TrialMemo& memo, std::uint64_t seed, Pace pace, bool asks_pr
   RepairSearch search(work_, run_, flipper_, memo, seed, asks_programs, pace);
   bool changed = false;
   RunningEnergyAndBad totals;
+  const std::optional<std::vector<TriangleId>> all;  // after a renumbering
   while (run_.sweeps_left() && search.improve_one_place()) {
     changed = true;
     end_round(phase, [&](const std::optional<Compaction>& kept) {
       if (kept) search.renumber(*kept);
-      return phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.executor()));
+      return phase.record_of(totals.measure(mesh_, state_.model, kept ? all : search.changed(), settings_.executor()));
     });
   }
   return changed;

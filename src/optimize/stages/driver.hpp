@@ -35,7 +35,8 @@ class Driver {
   int run(Phase& phase, int sweep);
 
   /// Searches locally for repairs of triangles that all restarts left bad. Returns false if nothing changed.
-  /// `asks_programs`: use linear programs for weights. `memo`: trials of this run.
+  /// `asks_programs`: use linear programs for weights. `memo`: trials of this run with the
+  /// same settings. `pace`: of trials with a guard.
   bool repair(TrialMemo& memo, std::uint64_t seed, Pace pace, bool asks_programs = false);
   /// Makes the places that violate the criterion good, with as few changes as possible. Returns as restart().
   int mend();

@@ -27,8 +27,8 @@ constexpr std::size_t kFarMore = 2;
 constexpr double kFewerByWeights = 0.75;
 // A search that ends with bad triangles may have made a wrong choice early, so more searches follow.
 constexpr std::uint64_t kSearches = 4;
-// By a guard trials are slow, so quick ones come first. If at most so many triangles stay bad, a thorough search begins
-// anew, and the better mesh stays.
+// With a guard trials are slow, so quick ones come first. If 1 to this number of triangles stay bad, a thorough search
+// follows from the mesh before. The run keeps the better result.
 constexpr std::size_t kFew = 6;
 // This search, if there is an LP solver, uses linear programs, and goes on from the result of the first.
 constexpr std::uint64_t kPrograms = 1;

@@ -42,7 +42,7 @@ struct Run {
   LpSolver& solver;
   SurfaceReport& report;
   TurnLimit limit = {};
-  std::size_t trials = 0;           ///< Of repairs, since the last one that helped
+  std::size_t trials = 0;           ///< Number of edits since the last one that helped
   std::optional<State> shown = {};  ///< For the listener, if there is one
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
