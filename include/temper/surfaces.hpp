@@ -347,7 +347,8 @@ struct SurfaceOptions {
   /// its coefficients are larger.
   Criterion criterion = Criterion::well_centered;
   double margin = 0.01;  ///< Margin t of the final weights, in (0, 1/2)
-  /// Largest distance between input and result, in parts of the diagonal of the bounding box.
+  /// Largest distance between all points of input and result, both ways, in parts of the diagonal of the bounding box.
+  /// It holds for lines, too.
   double surface_distance = 0.005;
   /// Creases are edges whose triangles turn by more than this angle, from 1° to 180°. No vertex leaves a
   /// crease. New vertices may split its edges. A thin triangle that two such edges fold out of the surface has none.
@@ -381,8 +382,8 @@ struct Turns {
 struct SurfaceReport : RunReport {
   Quality before, after;
   std::size_t violations_before = 0, violations_after = 0;  ///< Numbers of violations of the criterion
-  /// Largest distance between input and result, at vertices, centers of triangles and midpoints of edges. It is
-  /// measured both ways [length].
+  /// Bound of the distance between all points of input and result, both ways [length]. At most about a thousandth
+  /// above the largest distance.
   double surface_distance = 0;
   double diagonal = 0;      ///< Diagonal of the bounding box of the input [length]
   std::size_t repairs = 0;  ///< Number of edits next to bad triangles

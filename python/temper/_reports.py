@@ -489,7 +489,7 @@ class SurfaceOptimizeReport(_looks.SurfaceOptimizeReport):
     vertices: npt.NDArray[np.int32]
     """Number of each vertex in the input, −1 for inserted ones."""
     surface_distance: float
-    """Largest distance between input and result, measured both ways [length]."""
+    """Bound of the distance between all points of input and result, both ways [length]."""
     diagonal: float
     """Diagonal of the bounding box of the input [length]."""
     repairs: int

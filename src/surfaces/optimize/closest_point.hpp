@@ -1,4 +1,4 @@
-// The point of a surface that is closest to a given point.
+// The point of a surface that is closest to a given point, and the largest distance of a piece from a surface.
 #pragma once
 
 #include <array>
@@ -18,6 +18,26 @@ struct ClosestPoint {
   std::uint32_t triangle = 0;
 };
 
+/// A bound of the distances of all points of a piece from a surface.
+struct DistanceBound {
+  double most = 0;  ///< infinity: one point, or all that is known of it, is farther than allowed
+  Vec3 far = {};    ///< Such a point
+};
+
+/// A triangle or a segment, and planes across it: through its sides, or through its ends. Their normals face away.
+struct Target {
+  std::array<Vec3, 3> corners;  ///< Of a segment the third one is the first
+  Vec3 normal;                  ///< Of length 1; zero for a segment
+  std::array<Vec3, 3> away;     ///< Unit normal of the plane through corners k and k + 1, or corner k + 1
+
+  explicit Target(const std::array<Vec3, 3>& triangle);
+  [[nodiscard]] bool is_segment() const { return corners[2] == corners[0]; }
+  /// How far p is beyond plane k.
+  [[nodiscard]] double beyond(std::size_t k, Vec3 p) const { return dot(away[k], p - corners[(k + 1) % 3]); }
+  /// The square of the distance of p, or infinity, if it is larger than another one.
+  [[nodiscard]] double squared_distance(Vec3 p, double most) const;
+};
+
 /// Triangles in a tree of boxes, each halved by count along its longest side.
 class ClosestPoints {
  public:
@@ -25,15 +45,21 @@ class ClosestPoints {
 
   ClosestPoints() = default;
   /// A triangle may be a segment, with its third corner at the first.
-  explicit ClosestPoints(std::vector<Triangle> triangles);
+  explicit ClosestPoints(const std::vector<Triangle>& triangles);
   explicit ClosestPoints(const SurfaceMesh& mesh);
 
-  /// Of equally close points always the same. A point within `enough` of p, closest or not, ends the search. O(log n)
-  /// for points near the surface.
-  [[nodiscard]] ClosestPoint find(Vec3 p, double enough = 0) const;
-  [[nodiscard]] bool is_within(double distance, Vec3 p) const {
-    return find(p, distance).squared_distance <= distance * distance;
-  }
+  [[nodiscard]] const std::vector<Target>& targets() const { return targets_; }
+  /// Of equally close points always the same. O(log n) for points near the surface.
+  [[nodiscard]] ClosestPoint find(Vec3 p) const;
+
+  /// A bound of the distances of all points of a triangle: at least `enough`, usually a thousandth above the largest of
+  /// it and them, and infinity if it is more than `allowed`.
+  ///
+  /// The distance from a triangle T of the surface is a convex function. So no point of a piece is farther from T than
+  /// its farthest corner is. Pieces are cut until one T is near enough to all of each.
+  [[nodiscard]] DistanceBound bound(const Triangle& triangle, double enough, double allowed) const;
+  /// The triangles whose boxes are within a distance of the box of a triangle.
+  [[nodiscard]] std::vector<std::uint32_t> near(const Triangle& triangle, double distance) const;
 
  private:
   static constexpr std::size_t kLeaf = 4;
@@ -42,15 +68,21 @@ class ClosestPoints {
   void build(std::size_t node, std::size_t first, std::size_t last);
   struct Search {
     Vec3 p;
-    double enough2;
     ClosestPoint best;
   };
   void search(std::size_t node, std::size_t first, std::size_t last, Search& state) const;
+  void collect(std::size_t node, std::size_t first, std::size_t last, const BoundingBox& box,
+               std::vector<std::uint32_t>& found) const;
 
-  std::vector<Triangle> triangles_;
+  std::vector<Target> targets_;
   std::vector<std::uint32_t> order_;
   std::vector<BoundingBox> boxes_;  ///< Of node i; its halves are 2 i + 1 and 2 i + 2
 };
+
+[[nodiscard]] inline ClosestPoints::Triangle corners_of(const SurfaceMesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.points(t);
+  return {a.position(), b.position(), c.position()};
+}
 
 /// The point of a triangle that is closest to p. The triangle may be a segment, as above.
 [[nodiscard]] Vec3 closest_point(const std::array<Vec3, 3>& triangle, Vec3 p);

@@ -77,7 +77,7 @@ void Lines::add(const SurfaceMesh& mesh, const std::vector<VertexId>& vertices) 
     line.directions.push_back(unit(line.points[after] - line.points[before]));
     if (i < n) segments.push_back({line.points[i], line.points[i + 1], line.points[i]});
   }
-  line.segments = ClosestPoints(std::move(segments));
+  line.segments = ClosestPoints(segments);
   lines_.push_back(std::move(line));
 }
 
@@ -87,6 +87,37 @@ Vec3 Lines::direction(Track line, Vec3 p) const {
   const std::size_t i = found.triangle;
   const double part = length(found.at - l.points[i]) / length(l.points[i + 1] - l.points[i]);
   return unit((1 - part) * l.directions[i] + part * l.directions[i + 1]);
+}
+
+std::vector<VertexId> Lines::too_far(const SurfaceMesh& mesh, const IdVector<VertexId, Track>& tracks,
+                                     double most) const {
+  std::vector<VertexId> vertices;
+  if (lines_.empty()) return vertices;
+  const Mesh& connectivity = mesh.connectivity();
+  std::vector<std::vector<ClosestPoints::Triangle>> segments(lines_.size());
+  std::vector<Edges> edges(lines_.size());
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!connectivity.is_unflippable(h) || !connectivity.is_edge_representative(h)) continue;
+    const VertexId a = connectivity.origin(h), b = connectivity.target(h);
+    const Track track = std::max(tracks[a], tracks[b]);
+    if (track < 0) continue;
+    segments[static_cast<std::size_t>(track)].push_back({mesh.position(a), mesh.position(b), mesh.position(a)});
+    edges[static_cast<std::size_t>(track)].push_back({a, b});
+  }
+  const auto add = [&](const std::array<VertexId, 2>& edge) {
+    vertices.insert(vertices.end(), edge.begin(), edge.end());
+  };
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const ClosestPoints now(segments[i]);
+    for (std::size_t e = 0; e < edges[i].size(); ++e) {
+      if (lines_[i].segments.bound(segments[i][e], most, most).most > most) add(edges[i][e]);
+    }
+    for (const Target& t : lines_[i].segments.targets()) {
+      const DistanceBound bound = now.bound(t.corners, most, most);
+      if (bound.most > most) add(edges[i][now.find(bound.far).triangle]);
+    }
+  }
+  return vertices;
 }
 
 }  // namespace temper::surfaces

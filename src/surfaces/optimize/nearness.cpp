@@ -1,67 +1,56 @@
 #include "surfaces/optimize/nearness.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include "base/sort_unique.hpp"
 
 namespace temper::surfaces {
-namespace {
 
-/// Calls use(place, triangle) for the centers of triangles and the midpoints of edges.
-template <class Use>
-void for_each_sample(const SurfaceMesh& mesh, const Use& use) {
-  const Mesh& connectivity = mesh.connectivity();
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [p, q, r] = mesh.points(t);
-    use((1.0 / 3) * (p.position() + q.position() + r.position()), t);
+Nearness::Nearness(const SurfaceMesh& input, double most) : closest_(input), most_(most) {}
+
+Nearness::Known Nearness::after_edit(const SurfaceMesh& before, const std::vector<TriangleId>& replaced,
+                                     const SurfaceMesh& after) const {
+  Known known;
+  for (const TriangleId t : after.triangles()) known.triangles.push_back(corners_of(after, t));
+  known.is_near.assign(after.n_triangles(), 1);
+  known.is_input_near.assign(closest_.targets().size(), 1);
+  for (const TriangleId t : replaced) {
+    for (const std::uint32_t s : closest_.near(corners_of(before, t), most_)) known.is_input_near[s] = 0;
   }
-  for (const HalfedgeId h : mesh.halfedges()) {
-    if (!connectivity.is_edge_representative(h)) continue;
-    use(0.5 * (mesh.position(connectivity.origin(h)) + mesh.position(connectivity.target(h))), Mesh::triangle(h));
-  }
+  return known;
 }
 
-}  // namespace
-
-Nearness::Nearness(const SurfaceMesh& input, double most) : closest_(input), most_(most) {
-  for (const VertexId v : input.vertices()) samples_.push_back(input.position(v));
-  for_each_sample(input, [&](Vec3 p, TriangleId) { samples_.push_back(p); });
-}
-
-bool Nearness::is_near(const std::array<Vec3, 3>& triangle) const {
-  const auto& [a, b, c] = triangle;
-  const Vec3 places[] = {(1.0 / 3) * (a + b + c), 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)};
-  return std::all_of(std::begin(places), std::end(places), [&](Vec3 p) { return closest_.is_within(most_, p); });
-}
-
-std::vector<VertexId> Nearness::too_far(const SurfaceMesh& mesh) const {
+std::vector<VertexId> Nearness::too_far(const SurfaceMesh& mesh, Known& known) const {
   std::vector<VertexId> vertices;
-  const auto add = [&](TriangleId t) {
-    for (const VertexId v : mesh.connectivity().corners(t)) vertices.push_back(v);
+  const auto add = [&](std::size_t t) {
+    for (const VertexId v : mesh.connectivity().corners(TriangleId(t))) vertices.push_back(v);
   };
-  for_each_sample(mesh, [&](Vec3 p, TriangleId t) {
-    if (!closest_.is_within(most_, p)) add(t);
-  });
   const ClosestPoints now(mesh);
-  for (const Vec3 p : samples_) {
-    const ClosestPoint closest = now.find(p, most_);
-    if (closest.squared_distance > most_ * most_) add(TriangleId(closest.triangle));
+  known.triangles.resize(mesh.n_triangles());
+  known.is_near.resize(mesh.n_triangles());
+  known.is_input_near.resize(closest_.targets().size());
+  for (std::size_t t = 0; t < mesh.n_triangles(); ++t) {
+    const ClosestPoints::Triangle& triangle = now.targets()[t].corners;
+    if (known.triangles[t] != triangle) {
+      for (const std::uint32_t s : closest_.near(known.triangles[t], most_)) known.is_input_near[s] = 0;
+      known.triangles[t] = triangle;
+      known.is_near[t] = is_near(triangle) ? 1 : 0;
+    }
+    if (known.is_near[t] == 0) add(t);
   }
-  sort_unique(vertices);
+  for (std::size_t s = 0; s < closest_.targets().size(); ++s) {
+    if (known.is_input_near[s] != 0) continue;
+    const DistanceBound bound = now.bound(closest_.targets()[s].corners, most_, most_);
+    known.is_input_near[s] = bound.most <= most_ ? 1 : 0;
+    if (known.is_input_near[s] == 0) add(now.find(bound.far).triangle);
+  }
   return vertices;
 }
 
 double Nearness::distance(const SurfaceMesh& mesh) const {
-  double most = 0;
-  // Points that are closer than others before end their search early.
-  const auto add = [&](const ClosestPoints& to, Vec3 p) {
-    most = std::max(most, std::sqrt(to.find(p, most).squared_distance));
-  };
-  for (const VertexId v : mesh.vertices()) add(closest_, mesh.position(v));
-  for_each_sample(mesh, [&](Vec3 p, TriangleId) { add(closest_, p); });
+  constexpr double kRounding = 1e-11;  // of the largest allowed distance: less is not told from 0
+  double most = kRounding * most_;
   const ClosestPoints now(mesh);
-  for (const Vec3 p : samples_) add(now, p);
+  for (const Target& t : now.targets()) most = std::min(most_, closest_.bound(t.corners, most, most_).most);
+  for (const Target& t : closest_.targets()) most = std::min(most_, now.bound(t.corners, most, most_).most);
   return most;
 }
 

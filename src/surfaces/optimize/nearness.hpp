@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "surfaces/optimize/closest_point.hpp"
@@ -17,17 +18,27 @@ class Nearness {
   [[nodiscard]] const ClosestPoints& input() const { return closest_; }
   [[nodiscard]] double most() const { return most_; }
 
-  /// Says whether a triangle is near the input, at its center and the midpoints of its edges.
-  [[nodiscard]] bool is_near(const std::array<Vec3, 3>& triangle) const;
+  /// Says whether all of a triangle is near the input.
+  [[nodiscard]] bool is_near(const std::array<Vec3, 3>& triangle) const {
+    return closest_.bound(triangle, most_, most_).most <= most_;
+  }
+  /// What is known of a mesh with the same numbers of triangles: those that are near the input with these corners, and
+  /// the triangles of the input that are near them.
+  struct Known {
+    std::vector<ClosestPoints::Triangle> triangles;
+    std::vector<std::uint8_t> is_near, is_input_near;
+  };
+  /// What is known if near triangles have come in the place of some of a mesh that was near everywhere.
+  [[nodiscard]] Known after_edit(const SurfaceMesh& before, const std::vector<TriangleId>& replaced,
+                                 const SurfaceMesh& after) const;
   /// The vertices of triangles that are too far from the input, or nearest to places of the input that are too far.
-  /// Ascending.
-  [[nodiscard]] std::vector<VertexId> too_far(const SurfaceMesh& mesh) const;
-  /// The largest distance, measured both ways.
+  /// Looks again only at what has changed since the last time.
+  [[nodiscard]] std::vector<VertexId> too_far(const SurfaceMesh& mesh, Known& known) const;
+  /// A bound of the largest distance, both ways, of a mesh without vertices that are too far.
   [[nodiscard]] double distance(const SurfaceMesh& mesh) const;
 
  private:
   ClosestPoints closest_;
-  std::vector<Vec3> samples_;  ///< Of the input
   double most_;
 };
 

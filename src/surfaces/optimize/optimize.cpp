@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/sort_unique.hpp"
 #include "base/text.hpp"
 #include "feasibility/demand.hpp"
 #include "geometry/bounding_boxes.hpp"
@@ -71,16 +72,17 @@ std::vector<HalfedgeId> creases_of(const SurfaceMesh& mesh, double angle_deg) {
   return creases;
 }
 
-/// Gives a mesh the points of a draft, whose vertices go back to their first places until all is near the input. False
-/// if that is not enough.
-bool take(SurfaceMesh& mesh, Draft& draft, const IdVector<VertexId, WeightedPoint>& first, const Run& run) {
+/// Gives the mesh of a state the points of a draft, whose vertices go back to their first places until all is near the
+/// input. False if that is not enough.
+bool take(State& state, Draft& draft, const IdVector<VertexId, WeightedPoint>& first, Nearness::Known& known,
+          const Run& run) {
   constexpr int kTries = 8;
   for (int i = 0; i < kTries && !run.must_stop(); ++i) {
-    for (const VertexId v : mesh.vertices()) {
-      mesh.set_position(v, draft.points[v].position());
-      mesh.set_weight(v, draft.points[v].w);
+    for (const VertexId v : state.mesh.vertices()) {
+      state.mesh.set_position(v, draft.points[v].position());
+      state.mesh.set_weight(v, draft.points[v].w);
     }
-    const std::vector<VertexId> far = run.nearness.too_far(mesh);
+    const std::vector<VertexId> far = run.too_far(state, known);
     if (far.empty()) return true;
     for (const VertexId v : far) draft.points[v] = {first[v].x, first[v].y, first[v].z, draft.points[v].w};
     go_back(draft, first, run.limit);
@@ -160,6 +162,14 @@ bool Run::must_stop() const {
   return stopped_early(report.stopped);
 }
 
+std::vector<VertexId> Run::too_far(const State& state, Nearness::Known& known) const {
+  std::vector<VertexId> far = nearness.too_far(state.mesh, known);
+  const std::vector<VertexId> of_lines = state.lines->too_far(state.mesh, state.tracks, nearness.most());
+  far.insert(far.end(), of_lines.begin(), of_lines.end());
+  sort_unique(far);
+  return far;
+}
+
 void Run::record(SweepRecord measured) const {
   measured.sweep = report.sweeps;
   measured.seconds = seconds();
@@ -179,6 +189,7 @@ void Run::offer(const State& found) {
 void Run::move_all(State& state, bool with_weights) {
   State best = state;
   double gamma = kFirstGamma;
+  Nearness::Known known;
   for (int round = 0; round < kRounds && best.bad > 0 && !must_stop(); ++round) {
     const SurfaceMesh before = state.mesh;
     Draft draft = draft_of(before, state.tracks, state.lines, with_weights);
@@ -187,12 +198,12 @@ void Run::move_all(State& state, bool with_weights) {
     energy.lower(kSteps, [this] { return must_stop(); });
     if (must_stop()) break;
     energy.project(nearness.input(), limit);
-    if (!take(state.mesh, draft, first, *this)) state.mesh = before;
+    if (!take(state, draft, first, known, *this)) state.mesh = before;
     std::size_t flips = 0;
     if (options.may_flip) {
       const SurfaceMesh unflipped = state.mesh;
       flips = flip_negative_duals(state.mesh, nearness, limit);
-      if (flips > 0 && !nearness.too_far(state.mesh).empty()) {
+      if (flips > 0 && !too_far(state, known).empty()) {
         state.mesh = unflipped;
         flips = 0;
       }

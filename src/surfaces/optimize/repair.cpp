@@ -44,7 +44,8 @@ std::optional<State> best_edit(Run& run, const State& state, TriangleId center, 
   if (!next) return std::nullopt;
   next->bad = run.bad(next->mesh);
   if (next->bad >= state.bad || turns_of(next->mesh, 0).largest_deg > run.limit.sharpest) return std::nullopt;
-  if (!run.nearness.too_far(next->mesh).empty()) return std::nullopt;
+  Nearness::Known known = run.nearness.after_edit(state.mesh, patch.cells(), next->mesh);
+  if (!run.too_far(*next, known).empty()) return std::nullopt;
   return next;
 }
 

@@ -53,6 +53,8 @@ struct Run {
   /// Shows the best mesh so far to the listener. It is `found`, if this has the fewest bad cells.
   void offer(const State& found);
   [[nodiscard]] double seconds() const;
+  /// The vertices of triangles and of lines that are too far from those of the input. Ascending.
+  [[nodiscard]] std::vector<VertexId> too_far(const State& state, Nearness::Known& known) const;
   [[nodiscard]] std::size_t bad(const SurfaceMesh& mesh) const {
     return cells_at_violations(mesh, options.criterion).size();
   }

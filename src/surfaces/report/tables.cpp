@@ -60,7 +60,7 @@ const ReportTable& table_of(const SurfaceReport*) {
   static const ReportTable table = run_table<R>(
       "SurfaceOptimizeReport", kLibraries, {"hidden_vertices", "None", "", no_vertices, kLibraries},
       {{"vertices", "Number of each vertex in the input, −1 for inserted ones", "", &R::vertices, kLibraries},
-       {"surface_distance", "Largest distance between input and result, measured both ways", "length",
+       {"surface_distance", "Bound of the distance between all points of input and result, both ways", "length",
         &R::surface_distance, "distance from the input"},
        {"diagonal", "Diagonal of the bounding box of the input", "length", &R::diagonal, "  diagonal of the input"},
        {"repairs", "Number of edits next to bad triangles", "", &R::repairs, "edits next to bad triangles"},
