@@ -156,7 +156,9 @@ class PointGrid {
   [[nodiscard]] bool any_within(Vec3 p, double radius) const {
     const int level = std::ilogb(radius);
     const Vec3 reach = {radius, radius, flat_ ? 0 : radius};
-    for (int l = std::max(lowest_, level - 1); l <= std::min(highest_, level + 2); ++l) {
+    // Most points are refused because of a point of about their own size. So its level comes first.
+    for (const int l : {level, level + 1, level + 2, level - 1}) {
+      if (l < lowest_ || l > highest_) continue;
       const Cell low = cell(p - reach, l), high = cell(p + reach, l);
       for (std::int64_t x = low.x; x <= high.x; ++x) {
         for (std::int64_t y = low.y; y <= high.y; ++y) {
@@ -185,9 +187,14 @@ class PointGrid {
   };
 
   [[nodiscard]] Cell cell(Vec3 p, int level) const {
-    // In space a query would look at 729 cells of the least level, nearly all of them off the sphere.
-    const int wide = flat_ ? level : level + 2;
-    const auto along = [wide](double x) { return static_cast<std::int64_t>(std::floor(std::ldexp(x, -wide))); };
+    // Narrow cells are many to look at: in space a query would see 729 of the least level, nearly all off the sphere.
+    const int wide = flat_ ? level + 1 : level + 2;
+    const double scale = std::ldexp(1.0, -wide);
+    const auto along = [scale](double x) {
+      const double scaled = scale * x;
+      const auto towards_zero = static_cast<std::int64_t>(scaled);
+      return towards_zero - (scaled < static_cast<double>(towards_zero) ? 1 : 0);
+    };
     return {along(p.x), along(p.y), along(p.z), level};
   }
   [[nodiscard]] std::size_t slot(const Cell& c) const {
@@ -259,12 +266,15 @@ class Placement {
   std::vector<Vec3> run(std::size_t most) {
     for (std::size_t i = 0; i < divided_.pieces.size() && !deadline_.asked_to_stop(); ++i) start_from(i);
     const std::size_t given = divided_.pieces.empty() ? start_without_pieces() : 0;
+    std::array<std::array<double, 2>, 6> turns;
+    for (std::size_t k = 0; k < turns.size(); ++k) {
+      const double angle = static_cast<double>(k) * std::numbers::pi / 3;
+      turns[k] = {std::cos(angle), std::sin(angle)};
+    }
     for (std::size_t i = 0; i < front_.size() && front_.size() < most && !deadline_.asked_to_stop(); ++i) {
       const Front from = front_[i];  // a copy: front_ grows
       const double here = size_at(from.at, from.area);
-      for (int k = 0; k < 6; ++k) {
-        const double angle = k * std::numbers::pi / 3;
-        const double c = std::cos(angle), s = std::sin(angle);
+      for (const auto& [c, s] : turns) {
         const Vec3 d = c * from.direction + s * surface_.to_the_left(from.direction, from.at);
         const double there = size_at(surface_.below(from.at + here * d), from.area);
         take(surface_.below(from.at + 0.5 * (here + there) * d), from.at, from.area, kNoPiece);
