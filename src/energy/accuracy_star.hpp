@@ -40,7 +40,8 @@ struct AccuracyTriangle {
   AccuracyEdge<T> link;  ///< g in the outer triangle on its right; that on its left changes with the center
   LengthBarrier<T> link_lengths;
   T crossing_room;  ///< (d_ij/ℓ − ε)(d_ji/ℓ − ε) of the link edge
-  T inverse_area;   ///< with the center where it was asked about last
+  T inverse_area;   ///< from here on: with the center where it was asked about last
+  T room;           ///< of which its barrier has the logarithm; −1 if a triangle is not above its floor
 };
 
 /// A star in views of the storage of all its spokes and triangles.
@@ -121,13 +122,13 @@ TEMPER_INLINE void place_spoke(AccuracySpoke<In>& s, const typename In::Center& 
   s.inverse_l2 = 1.0 / s.to.l2;
 }
 
-/// Finds the heights of triangle i; returns its barrier and the energy of its link edge, or +∞.
+/// Finds the heights of triangle i and the room above its floor.
 template <class In>
-[[nodiscard]] TEMPER_INLINE auto place_triangle(const AccuracyStarOf<In>& star, std::size_t i) {
+TEMPER_INLINE void place_triangle(const AccuracyStarOf<In>& star, std::size_t i) {
   using T = typename In::Scalar;
   AccuracySpoke<In>&a = star.spokes[i], &b = star.spokes[i + 1];
   AccuracyTriangle<In>& t = star.triangles[i];
-  const auto [m, floor] = t.barrier;
+  const T floor = t.barrier.floor;
   const TriangleShapeOf<T> shape = triangle_shape(a.to, b.to, a.q, b.q);
   t.inverse_area = shape.inverse_area;
   a.left = shape.pq.g, b.right = shape.rp.g, t.link.left = shape.qr.g;
@@ -136,10 +137,17 @@ template <class In>
   const T da = crossing_room(a.to.dw * a.inverse_l2, floor), db = crossing_room(b.to.dw * b.inverse_l2, floor);
   const T zero = all<T>(0);
   const auto inside = (shape.doubled_area > zero) & (ha > zero) & (hb > zero) & (hc > zero) & (da > zero) & (db > zero);
-  const T logarithm = portable_log(heights * heights * (da * db * t.crossing_room));
-  T value = edge_value(star.model, t.link) - 0.5 * m * logarithm;
+  t.room = select(inside, heights * heights * (da * db * t.crossing_room), all<T>(-1));
+}
+
+/// Returns the barrier of triangle i, which has been placed, and the energy of its link edge, or +∞.
+template <class In>
+[[nodiscard]] TEMPER_INLINE auto triangle_value(const AccuracyStarOf<In>& star, std::size_t i) {
+  using T = typename In::Scalar;
+  const AccuracyTriangle<In>& t = star.triangles[i];
+  T value = edge_value(star.model, t.link) - 0.5 * t.barrier.factor * portable_log(t.room);
   if (star.model.keeps_lengths()) value = value + length_barrier(t.link_lengths, t.link);
-  return select(inside, value, all<T>(kInfinity));
+  return select(t.room > all<T>(0), value, all<T>(kInfinity));
 }
 
 /// Energy and barrier with the center at p; +∞ if a triangle turns over or is not above its floor.
@@ -152,12 +160,16 @@ template <class In>
   for (std::size_t i = 0; i < star.most; ++i) {
     const auto here = star.has_triangle(i);
     place_spoke(star.spokes[i + 1], p);
-    sum = sum + select(here, place_triangle(star, i), zero);
+    place_triangle(star, i);
     star.spokes[i].left = select(here, star.spokes[i].left, zero);
     last_right = select(here, star.spokes[i + 1].right, last_right);
   }
   star.spokes[0].right = select(star.open, zero, last_right);
   star.spokes[star.most].left = zero;
+  // A logarithm is a long chain of operations. In a loop of their own those of several triangles run at once.
+  for (std::size_t i = 0; i < star.most; ++i) {
+    sum = sum + select(star.has_triangle(i), triangle_value(star, i), zero);
+  }
   for (std::size_t i = 0; i <= star.most; ++i) {
     const AccuracySpoke<In>& s = star.spokes[i];
     T value = edge_value(star.model, s.edge());

@@ -13,6 +13,9 @@ namespace {
 constexpr std::size_t kWindow = 256;
 // Distance from the present vertex to the vertex whose memory is fetched in advance.
 constexpr std::size_t kAhead = 64;
+// From a halfedge to the next and the previous one in its triangle, by its place there. Mesh::next() and Mesh::prev()
+// together become branches, which are often predicted wrong.
+constexpr std::array<std::uint32_t, 3> kToNext = {1U, 1U, -2U}, kToPrev = {2U, -1U, -1U};
 // With fewer vertices left, full lanes matter more than similar stars.
 constexpr std::size_t kLastFew = 48;
 
@@ -106,6 +109,7 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
 /// Gathers and marks the points that a vertex's step reads. Returns false if they are not all in the part.
 bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   constexpr std::size_t kMost = StarBatch::kMostTriangles;
+  const bool may_flip = state.accuracy_domain == nullptr;
   const Part part = part_;
   const WeightedPoint center = mesh.point(occupant.v);
   const HalfedgeId first = mesh.outgoing(occupant.v);
@@ -113,11 +117,13 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   VertexId q = mesh.target(h);
   std::size_t i = 0;
   bool open = false;
+  if (!part.contains(q)) return false;
   do {
-    const HalfedgeId link = Mesh::next(h), back = Mesh::next(link);
+    const std::size_t side = h.index % 3;
+    const HalfedgeId link(h.index + kToNext[side]), back(h.index + kToPrev[side]);
     const VertexId r = mesh.origin(back);
     // The twin and the corner across may be read only if both ends of the link edge are in the part.
-    if (!part.contains(q) || !part.contains(r)) return false;
+    if (!part.contains(r)) return false;
     const HalfedgeId across = mesh.twin(link);
     const VertexId o = across.valid() ? mesh.opposite(across) : q;
     if (!part.contains(o)) return false;
@@ -127,8 +133,10 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
       occupant.spokes[i] = h;
       batch_.link[i].set(lane, mesh.point(q, center));
       batch_.across[i].set(lane, mesh.point(o, center));
-      batch_.link_flips[i][lane] = across.valid() && !mesh.is_constrained(link) ? -1 : 0;
-      batch_.spoke_flips[i][lane] = mesh.is_constrained(h) ? 0 : -1;
+      if (may_flip) {
+        batch_.link_flips[i][lane] = across.valid() && !mesh.is_constrained(link) ? -1 : 0;
+        batch_.spoke_flips[i][lane] = mesh.is_constrained(h) ? 0 : -1;
+      }
     }
     ++i;
     q = r;
@@ -154,10 +162,11 @@ void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
   for (std::size_t i = 0; i < triangles; ++i) {
     const HalfedgeId h = occupant.spokes[i], across = mesh.twin(Mesh::next(h));
     const TriangleId t = Mesh::triangle(h);
-    if (!floors.has(t) || (across.valid() && !floors.has(Mesh::triangle(across)))) {
+    const double floor = floors[t];
+    if (!(floor > 0) || (across.valid() && !floors.has(Mesh::triangle(across)))) {
       batch_.moves[lane] = batch_.changes_weight[lane] = 0;
     }
-    accuracy_.floor[i][lane] = floors[t];
+    accuracy_.floor[i][lane] = floor;
     accuracy_.inner[i][lane] = across.valid() ? -1 : 0;
     if (settings.accuracy.keeps_lengths()) gather_lengths(h, i, lane);
     accuracy_.link_size[i][lane] = sizes[occupant.link[i]];
