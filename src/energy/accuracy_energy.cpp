@@ -191,14 +191,6 @@ VertexDerivatives AccuracyPatch::derivatives() {
   return {value_, true, {g.x, g.y, g.w}, {h.xx, h.xy, h.xw, h.yy, h.yw, h.ww}};
 }
 
-WeightedPoint AccuracyPatch::gradient() {
-  const auto of = [&]<class In>(Star<In>& star) {
-    return accuracy_derivatives(star.view(*model_, open_), seen_from(point_of<In>(at_))).gradient;
-  };
-  const auto g = space_.is_plane() ? of(in_plane_) : of(on_sphere_);
-  return {g.x, g.y, g.w};
-}
-
 bool AccuracyPatch::is_well_centered(const WeightedPoint& p) const {
   const auto of = [&](const auto& star) {
     for (std::size_t i = 0; i < star.triangles.size(); ++i) {

@@ -114,6 +114,11 @@ struct AccuracyTotal {
 [[nodiscard]] AccuracyTotal accuracy_total(const Mesh& mesh, const AccuracyDomain& domain, const AccuracyModel& model,
                                            const Engine& engine = nullptr, bool with_energy = true);
 
+/// The derivatives of energy + barrier by each vertex: in x, y and w, on the sphere in its chart. Those of a vertex are
+/// 0 if a triangle of its star, or across its link, has no floor. Precondition: energy + barrier is finite. O(n).
+[[nodiscard]] IdVector<VertexId, WeightedPoint> accuracy_gradient(const Mesh& mesh, const AccuracyDomain& domain,
+                                                                  const AccuracyModel& model, Executor* executor);
+
 /// Energy and barrier as a function of one vertex. Storage is kept from vertex to vertex.
 class AccuracyPatch {
  public:
@@ -126,8 +131,6 @@ class AccuracyPatch {
   [[nodiscard]] double value(const WeightedPoint& p);
   /// All derivatives at the point of the last call of value(), which was finite.
   [[nodiscard]] VertexDerivatives derivatives();
-  /// The first derivatives alone.
-  [[nodiscard]] WeightedPoint gradient();
   /// Says whether all triangles of the star are well-centered with the center at p, exactly.
   [[nodiscard]] bool is_well_centered(const WeightedPoint& p) const;
   /// The length of the shortest spoke.

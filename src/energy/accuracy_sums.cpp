@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <tuple>
 
+#include "base/loops.hpp"
 #include "base/sum.hpp"
 #include "energy/accuracy_energy.hpp"
 #include "energy/star_kernels.hpp"
@@ -153,6 +155,110 @@ AccuracyTotal accuracy_total(const Mesh& mesh, const AccuracyDomain& domain, con
     of_block[1] = barrier + of_lengths;
   });
   return {sums[0], sums[1]};
+}
+
+namespace {
+
+/// The derivatives of energy and barrier by ℓ² and δw of the edge of a halfedge, and by g in its triangle.
+struct HalfedgeSlopes {
+  double l = 0, dw = 0, g = 0;
+};
+
+/// Each edge and each triangle is visited once; then each vertex collects its derivatives by the chain rule.
+class GradientSum {
+ public:
+  GradientSum(const Mesh& mesh, const AccuracyDomain& domain, const AccuracyModel& model, Executor* executor)
+      : mesh_(mesh), domain_(domain), model_(model), heights_(mesh.n_halfedges()), slopes_(mesh.n_halfedges()) {
+    sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
+      for_triangles(mesh, block, [&](const Triangles& triangles) {
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+          for (int k = 0; k < 3; ++k) heights_[Mesh::halfedge(triangles[i], k)] = triangles.edge(i, k).g;
+        }
+      });
+      return 0.0;
+    });
+    for_each_index(mesh.n_halfedges(), executor, [&](std::size_t i) {
+      if (mesh.is_edge_representative(HalfedgeId(i))) find_slopes(HalfedgeId(i));
+    });
+  }
+
+  [[nodiscard]] WeightedPoint at(VertexId v) const {
+    for (const HalfedgeId h : mesh_.star(v)) {
+      const HalfedgeId across = mesh_.twin(Mesh::next(h));
+      if (!domain_.floors.has(Mesh::triangle(h))) return {};
+      if (across.valid() && !domain_.floors.has(Mesh::triangle(across))) return {};
+    }
+    const auto plain = [](const WeightedPoint& p) { return PointOf<double>{p.x, p.y, p.w}; };
+    return mesh_.space().is_plane() ? collected(v, plain) : collected(v, weighted_vector);
+  }
+
+ private:
+  [[nodiscard]] TriangleBarrier<double> barrier_at(HalfedgeId h) const {
+    if (!h.valid() || !domain_.floors.has(Mesh::triangle(h))) return {0, -1};
+    const TriangleId t = Mesh::triangle(h);
+    const auto [p, q, r] = mesh_.corners(t);
+    const VertexSizes& sizes = domain_.sizes;
+    return {barrier_factor(model_, sizes[p], sizes[q], sizes[r], domain_.floors[t]), domain_.floors[t]};
+  }
+
+  void find_slopes(HalfedgeId h) {
+    const HalfedgeId twin = mesh_.twin(h);
+    const VertexId a = mesh_.origin(h), b = mesh_.target(h);
+    const WeightedPoint p = mesh_.point(a);
+    const auto [l2, dw] = edge_measures(mesh_.space(), p, mesh_.point(b, p));
+    const AccuracyEdge<double> edge = {edge_scale(domain_.sizes[a], domain_.sizes[b]),
+                                       twin.valid() ? model_.height : model_.boundary_height,
+                                       l2,
+                                       1 / l2,
+                                       dw,
+                                       heights_[h],
+                                       twin.valid() ? heights_[twin] : 0};
+    EdgeSlopes<double> s = edge_slopes(model_, edge);
+    for (const auto& [side, g, slopes] : {std::tuple(h, edge.left, &s.left), std::tuple(twin, edge.right, &s.right)}) {
+      const TriangleBarrier<double> barrier = barrier_at(side);
+      add_height_barrier(barrier, l2, edge.inverse_l2, g, s, *slopes);
+      add_crossing_barrier(barrier, l2, edge.inverse_l2, dw, s);
+    }
+    if (model_.keeps_lengths() && twin.valid()) add_length_barrier(domain_.floors.lengths(mesh_, h), edge, s);
+    slopes_[h] = {s.l, s.dw, s.left.g};
+    if (twin.valid()) slopes_[twin] = {s.l, -s.dw, s.right.g};
+  }
+
+  template <class PointIn>
+  [[nodiscard]] WeightedPoint collected(VertexId v, const PointIn& point_in) const {
+    const WeightedPoint center = mesh_.point(v);
+    const auto from = seen_from(point_in(center));
+    CornerVector<double> sum = {0, 0, 0};
+    for (const HalfedgeId h : mesh_.star(v)) {
+      const HalfedgeId next = Mesh::next(h), last = Mesh::prev(h);
+      const auto q = point_in(mesh_.point(mesh_.target(h), center)),
+                 r = point_in(mesh_.point(mesh_.origin(last), center));
+      const auto a = spoke(from, q), b = spoke(from, r);
+      const auto to = heights_at_corner(a, b, triangle_shape(a, b, q, r).inverse_area);
+      sum = sum + (slopes_[h].g * to.pq + slopes_[next].g * to.qr + slopes_[last].g * to.rp);
+      sum = sum + by_l2_and_dw(slopes_[h].l, gradient_of_l2(a), slopes_[h].dw);
+      if (mesh_.is_boundary(last)) sum = sum + by_l2_and_dw(slopes_[last].l, gradient_of_l2(b), -slopes_[last].dw);
+    }
+    return {sum.x, sum.y, sum.w};
+  }
+
+  const Mesh& mesh_;
+  const AccuracyDomain& domain_;
+  const AccuracyModel& model_;
+  IdVector<HalfedgeId, double> heights_;  // g
+  IdVector<HalfedgeId, HalfedgeSlopes> slopes_;
+};
+
+}  // namespace
+
+IdVector<VertexId, WeightedPoint> accuracy_gradient(const Mesh& mesh, const AccuracyDomain& domain,
+                                                    const AccuracyModel& model, Executor* executor) {
+  const GradientSum sum(mesh, domain, model, executor);
+  IdVector<VertexId, WeightedPoint> gradient(mesh.n_vertices());
+  for_each_index(mesh.n_vertices(), executor, [&](std::size_t i) {
+    if (!mesh.is_isolated(VertexId(i))) gradient[VertexId(i)] = sum.at(VertexId(i));
+  });
+  return gradient;
 }
 
 }  // namespace temper

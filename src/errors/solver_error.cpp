@@ -21,20 +21,29 @@ namespace temper {
 namespace error_detail {
 namespace {
 
-/// ½∫ cos(s h) ds and ½∫ s sin(s h) ds over [−1, 1]: a wave's means over a segment on which its angle changes by 2h.
+/// ½∫ cos(s h) ds and ½∫ s sin(s h) ds over [−1, 1] in each direction: a wave's means over a segment on which its angle
+/// changes by 2h.
 struct SegmentMeans {
-  double even = 1, odd = 0;
-  double half_secant = 0;  // 1/(2 cos h), or 0 if the segment is long
+  using Values = std::array<double, kDirections>;
+  Values even, odd;
+  Values half_secant;    ///< 1/(2 cos h)
+  bool is_long = false;  ///< then secants are not accurate
+
   SegmentMeans() = default;
-  explicit SegmentMeans(double h) {
-    const double z = h * h;
-    if (z < 0.06) {  // the next terms are below 1e-16
-      even = 1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110))));
-      odd = h / 3 * (1 - z / 10 * (1 - z / 28 * (1 - z / 54 * (1 - z / 88))));
-      half_secant = 0.5 / (1 - z / 2 * (1 - z / 12 * (1 - z / 30 * (1 - z / 56 * (1 - z / 90)))));
-    } else {
-      const auto [sine, cosine] = sine_cosine(h);
-      even = sine / h, odd = (sine - h * cosine) / z;
+  explicit SegmentMeans(const Values& h) {
+    constexpr double kLong = 0.06;  // of h²: below it the next terms of these series are below 1e-16
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const double z = h[d] * h[d];
+      even[d] = 1 - 1.0 / 6 * z * (1 - 1.0 / 20 * z * (1 - 1.0 / 42 * z * (1 - 1.0 / 72 * z * (1 - 1.0 / 110 * z))));
+      odd[d] = 1.0 / 3 * h[d] * (1 - 1.0 / 10 * z * (1 - 1.0 / 28 * z * (1 - 1.0 / 54 * z * (1 - 1.0 / 88 * z))));
+      half_secant[d] =
+          0.5 / (1 - 0.5 * z * (1 - 1.0 / 12 * z * (1 - 1.0 / 30 * z * (1 - 1.0 / 56 * z * (1 - 1.0 / 90 * z)))));
+    }
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      if (h[d] * h[d] < kLong) continue;
+      is_long = true;
+      const auto [sine, cosine] = sine_cosine(h[d]);
+      even[d] = sine / h[d], odd[d] = (sine - h[d] * cosine) / (h[d] * h[d]);
     }
   }
 };
@@ -133,19 +142,17 @@ class CellSolver final : public Solver {
   /// the values at the ends give those in the middle.
   struct OnEdge {
     Vec2 e;
-    std::array<SegmentMeans, kDirections> means;
+    SegmentMeans means;
     Lanes middle;
 
     OnEdge(const Mesh& mesh, const Waves& waves, const DecEdge& edge, const std::vector<Lanes>& at_vertices)
         : e(mesh.position(edge.to) - mesh.position(edge.from)) {
       const Lanes &from = at_vertices[edge.from.index], &to = at_vertices[edge.to.index];
-      bool is_long = false;
-      for (std::size_t d = 0; d < kDirections; ++d) {
-        means[d] = SegmentMeans(0.5 * dot(waves.k[d], e));
-        is_long = is_long || means[d].half_secant == 0;
-        for (const std::size_t i : {2 * d, 2 * d + 1}) middle[i] = means[d].half_secant * (from[i] + to[i]);
-      }
-      if (is_long) middle = waves.at(mesh.position(edge.from) + 0.5 * e);
+      SegmentMeans::Values h;
+      for (std::size_t d = 0; d < kDirections; ++d) h[d] = 0.5 * dot(waves.k[d], e);
+      means = SegmentMeans(h);
+      for (std::size_t i = 0; i < kLanes; ++i) middle[i] = means.half_secant[i / 2] * (from[i] + to[i]);
+      if (means.is_long) middle = waves.at(mesh.position(edge.from) + 0.5 * e);
     }
   };
 
@@ -178,7 +185,7 @@ class CellSolver final : public Solver {
     const OnEdge on(subject().mesh, waves, edge, at_vertices);
     Lanes flow = waves.slopes(on.middle);
     for (std::size_t d = 0; d < kDirections; ++d) {
-      const double factor = cross(on.e, waves.k[d]) * on.means[d].even;
+      const double factor = cross(on.e, waves.k[d]) * on.means.even[d];
       flow[2 * d] *= factor, flow[2 * d + 1] *= factor;
     }
     return flow;
@@ -208,8 +215,8 @@ class CellSolver final : public Solver {
     double even = 0, odd = 0;
     for (std::size_t d = 0; d < kDirections; ++d) {
       for (const std::size_t i : {2 * d, 2 * d + 1}) {
-        even += (left[i] - right[i]) * middle[i] * means[d].even;
-        odd += (left[i] - right[i]) * slopes[i] * means[d].odd;
+        even += (left[i] - right[i]) * middle[i] * means.even[d];
+        odd += (left[i] - right[i]) * slopes[i] * means.odd[d];
       }
     }
     const double half = 0.5 * waves.k2;

@@ -101,22 +101,10 @@ SolverErrorPhase::Value SolverErrorPhase::value() {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     for (const VertexId v : mesh_.vertices()) add(gradient[v], objective.by_error[i], gradients[i][v]);
   }
-  add_gradient_of_energy(objective.by_total, gradient);
+  const Gradient of_energy = accuracy_gradient(mesh_, domain_, settings_.accuracy, settings_.executor());
+  for (const VertexId v : mesh_.vertices()) add(gradient[v], objective.by_total, of_energy[v]);
   result.gradient = scaled(gradient);
   return result;
-}
-
-/// Only the star of a vertex depends on it in E and B.
-void SolverErrorPhase::add_gradient_of_energy(double factor, Gradient& gradient) const {
-  for_blocks(mesh_.n_vertices(), settings_.executor(), [&](std::size_t first, std::size_t last) {
-    AccuracyPatch patch;
-    for (std::size_t i = first; i < last; ++i) {
-      const VertexId v(i);
-      if (mesh_.is_isolated(v) || !patch.gather(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, v)) continue;
-      if (!std::isfinite(patch.value(mesh_.point(v)))) continue;
-      add(gradient[v], factor, patch.gradient());
-    }
-  });
 }
 
 /// Says exactly whether all triangles are well-centered. The barrier says whether they are above their floors.

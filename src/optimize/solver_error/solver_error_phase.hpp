@@ -40,7 +40,6 @@ class SolverErrorPhase final : public SizedPhase {
   };
 
   [[nodiscard]] Value value();
-  void add_gradient_of_energy(double factor, Gradient& gradient) const;
   [[nodiscard]] Vector scaled(const Gradient& gradient) const;
   [[nodiscard]] bool is_inside() const;
   [[nodiscard]] std::size_t n_elements() const { return mesh_.n_triangles(); }

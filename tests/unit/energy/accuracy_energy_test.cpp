@@ -336,6 +336,59 @@ TEST(AccuracyPatch, HasTheBarrierOfLengthsOfTheTwin) {
   }
 }
 
+TEST(AccuracyGradient, IsThatOfEachPatch) {
+  int cases = 0;
+  for (const double radius : kRadii) {
+    Mesh mesh = small_lattice(1, {}, radius);
+    const VertexSizes sizes = uneven_sizes(mesh);
+    for (const StarOf& of : kStarsOf) {
+      const AccuracyModel plain = model_of(of, 10, 18);
+      for (const AccuracyModel& model : {plain, with_lengths(plain)}) {
+        const AccuracyDomain domain = {sizes, floors_with_lengths(mesh, sizes, model)};
+        const auto gradient = accuracy_gradient(mesh, domain, model, nullptr);
+        double largest = 0;
+        for (const VertexId v : mesh.vertices()) {
+          const WeightedPoint g = gradient[v];
+          largest = std::max({largest, std::abs(g.x), std::abs(g.y), std::abs(g.w)});
+        }
+        AccuracyPatch star;
+        for (const VertexId v : mesh.vertices()) {
+          ASSERT_TRUE(star.gather(mesh, sizes, domain.floors, model, v));
+          ASSERT_TRUE(std::isfinite(star.value(mesh.point(v))));
+          const auto expected = star.derivatives().gradient;
+          const WeightedPoint g = gradient[v];
+          const double rounding = (1e-13 + 1e-15 * radius * radius) * largest;
+          EXPECT_NEAR(g.x, expected[0], rounding) << v.index << " of star " << of.name << ", radius " << radius;
+          EXPECT_NEAR(g.y, expected[1], rounding) << v.index;
+          EXPECT_NEAR(g.w, expected[2], rounding) << v.index;
+          ++cases;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(cases, 3 * 4 * 2 * 25);
+}
+
+TEST(AccuracyGradient, IsZeroWhereATriangleHasNoFloor) {
+  Mesh mesh = small_lattice();
+  const VertexSizes sizes = uneven_sizes(mesh);
+  const AccuracyModel model = model_of(kStarsOf[1], 10, 18);
+  mesh.set_weight(VertexId(12), mesh.weight(VertexId(12)) + 2);  // its triangles are not well-centered
+  AccuracyDomain domain = {sizes, {}};
+  domain.floors.raise(mesh, kMargin);
+  const auto gradient = accuracy_gradient(mesh, domain, model, nullptr);
+  AccuracyPatch star;
+  int stays = 0;
+  for (const VertexId v : mesh.vertices()) {
+    const bool may = star.gather(mesh, sizes, domain.floors, model, v);
+    const WeightedPoint g = gradient[v];
+    EXPECT_EQ(g.x == 0 && g.y == 0 && g.w == 0, !may) << v.index;
+    stays += may ? 0 : 1;
+  }
+  EXPECT_GT(stays, 6);
+  EXPECT_LT(stays, 25);
+}
+
 TEST(AccuracyPatch, HasTheFactorsOfThinTrianglesOfTheTwin) {
   for (const double radius : {0.0, 20.0}) {
     const Mesh mesh = small_lattice(1, {}, radius);
