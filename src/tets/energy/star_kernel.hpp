@@ -137,6 +137,26 @@ TEMPER_INLINE T tet_energy(const LinkFace<T>& face, const Vector<T>& p, const T&
   return tet_energy(face, Apex<T>(face, p, w), gamma);
 }
 
+/// The face of p over an edge: what its derivatives need of roots and quotients.
+template <class T>
+struct ApexFace {
+  Vector<T> v;
+  T along, turn;  ///< v·e and m·n
+  T height;       ///< h |m|
+  T inverse_m2;   ///< |m|⁻²
+  T scale;        ///< of h |m| in h/ℓ
+  SoftBarrier<T> barrier;
+};
+template <class T>
+TEMPER_INLINE ApexFace<T> apex_face(const typename LinkFace<T>::Edge& e, const Apex<T>& apex, const T& gamma) {
+  const Vector<T> v = apex.u - e.from;
+  const T along = dot(v, e.along), m2 = dot(v, v) * e.length2 - along * along;
+  const T turn = dot(v, e.turn), height = dot(v, e.plane) + apex.along_normal * turn;
+  const T inverse_root = 1 / square_root(square_root(m2)), inverse_m = inverse_root * inverse_root;
+  const T scale = 1 / kLengthOfArea * inverse_m * inverse_root;
+  return {v, along, turn, height, inverse_m * inverse_m, scale, soft_barrier(height * scale, gamma)};
+}
+
 /// The same value, with gradient and Hessian. Let g = h |m| and S = |m|², so that h/ℓ = g S^(−3/4)/kLengthOfArea. By
 /// the product rule all second derivatives are products of vectors, but for those of t, which all faces share.
 template <class T>
@@ -153,17 +173,17 @@ TEMPER_INLINE PointDerivatives<T> tet_derivatives(const LinkFace<T>& face, const
   };
   T of_ddt = face.factor * plus(soft_barrier(face.factor * t, gamma), face.factor * dt);  // factor of the Hessian of t
   Vector<T> with_dt = {all<T>(0), all<T>(0), all<T>(0)};
-  for (const auto& e : face.edges) {
-    const Vector<T> v = apex.u - e.from;
-    const T along = dot(v, e.along), m2 = dot(v, v) * e.length2 - along * along;
-    const T turn = dot(v, e.turn), height = dot(v, e.plane) + t * turn;
-    const T inverse_root = 1 / square_root(square_root(m2)), inverse_m = inverse_root * inverse_root;
-    const T inverse_m2 = inverse_m * inverse_m, scale = 1 / kLengthOfArea * inverse_m * inverse_root;
+  // Roots and quotients of all three faces come first: they take long, and so run at once.
+  std::array<ApexFace<T>, 3> faces;
+  for (std::size_t i = 0; i < 3; ++i) faces[i] = apex_face(face.edges[i], apex, gamma);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& e = face.edges[i];
+    const auto& [v, along, turn, height, inverse_m2, scale, barrier] = faces[i];
     const Vector<T> dm2 = all<T>(2) * (e.length2 * v - along * e.along);
     const PointVector<T> dheight = {e.plane + t * e.turn + turn * dt.at, turn * dt.w};
     const T per_m2 = -0.75 * scale * inverse_m2;  // of scale by m2
     const PointVector<T> dy = {scale * dheight.at + height * per_m2 * dm2, scale * dheight.w};
-    const T slope = plus(soft_barrier(height * scale, gamma), dy);
+    const T slope = plus(barrier, dy);
     of_ddt = of_ddt + slope * scale * turn;
     with_dt = with_dt + slope * scale * e.turn;
     d.hessian.add_both(slope * per_m2 * dm2, dheight);
