@@ -108,6 +108,7 @@ std::vector<VertexId> Lines::too_far(const SurfaceMesh& mesh, const IdVector<Ver
     vertices.insert(vertices.end(), edge.begin(), edge.end());
   };
   for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (edges[i].empty()) continue;  // its vertices are held
     const ClosestPoints now(segments[i]);
     for (std::size_t e = 0; e < edges[i].size(); ++e) {
       if (lines_[i].segments.bound(segments[i][e], most, most).most > most) add(edges[i][e]);

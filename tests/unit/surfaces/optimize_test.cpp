@@ -290,6 +290,7 @@ TEST(SurfaceDistance, LinesAreNearThoseOfTheInputWhereTheirTrianglesAreNearTheSu
   EXPECT_TRUE(lines.too_far(mesh, lines.tracks(), 1.01 * height).empty());
   const std::vector<VertexId> far = lines.too_far(mesh, lines.tracks(), 0.99 * height);
   EXPECT_TRUE(std::find(far.begin(), far.end(), moved) != far.end());
+  EXPECT_TRUE(lines.too_far(mesh, IdVector<VertexId, Track>(mesh.n_vertices(), kHeld), 1).empty());
 }
 
 TEST(SurfaceDistance, WhatIsKnownOfAMeshIsWhatAFirstLookFinds) {
