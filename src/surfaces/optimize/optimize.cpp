@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kRounds = 16, kSteps = 30;
 constexpr double kFirstGamma = 1, kLastGamma = 0.01, kGammaFactor = 0.72;
+constexpr double kSmallPart = 1e-3;  // the least gain of energy of a triangle that another round is worth
 constexpr double kSteepGamma = 0.4;  // factor from one descent of weights alone to the next
 // Edges of triangles that are not well-centered may turn more than creases by this angle [degrees]. With 0, two more
 // public meshes (bunny, screwdriver) keep bad triangles.
@@ -113,6 +114,23 @@ Draft weights_of(const SurfaceMesh& mesh) {
 double energy_of(const SurfaceMesh& mesh, double gamma) {
   Draft draft = weights_of(mesh);
   return DraftEnergy(draft, gamma).value().lowered;
+}
+
+double margin_of(const SurfaceMesh& mesh, TriangleId t) {
+  const TriangleQuality quality = triangle_quality(mesh, t);
+  return std::min(quality.min_h_over_l, quality.min_d_over_l);
+}
+
+double least_margin_of(const SurfaceMesh& mesh) {
+  double least = 1;
+  for (const TriangleId t : mesh.triangles()) least = std::min(least, margin_of(mesh, t));
+  return least;
+}
+
+std::size_t n_below(const SurfaceMesh& mesh, double margin) {
+  std::size_t n = 0;
+  for (const TriangleId t : mesh.triangles()) n += margin_of(mesh, t) < margin ? 1 : 0;
+  return n;
 }
 
 /// The mesh of a state as the user has it: creases are not constrained.
@@ -219,6 +237,58 @@ void Run::move_all(State& state, bool with_weights) {
   state = std::move(best);
 }
 
+std::optional<State> Run::lowered(const State& state, int steps, double least_margin, Nearness::Known& known) const {
+  const auto never = [this] { return must_stop(); };
+  Draft draft = draft_of(state.mesh, state.tracks, state.lines, true);
+  const IdVector<VertexId, WeightedPoint> first = draft.points;
+  DraftEnergy energy(draft, kLastGamma);
+  energy.lower(steps, never);
+  energy.project(nearness.input(), limit);
+  State next = state;
+  constexpr int kTries = 4;
+  for (int i = 0; i < kTries && take(next, draft, first, known, *this); ++i) {
+    Draft weights = weights_of(next.mesh);
+    for (const VertexId v : next.mesh.vertices()) weights.weighs[v] = draft.weighs[v];
+    DraftEnergy(weights, kLastGamma).lower(kSteps, never);
+    for (const VertexId v : next.mesh.vertices()) next.mesh.set_weight(v, weights.points[v].w);
+    std::vector<TriangleId> bad = cells_at_violations(next.mesh, options.criterion);
+    for (const TriangleId t : next.mesh.triangles()) {
+      if (margin_of(next.mesh, t) < least_margin) bad.push_back(t);
+    }
+    if (bad.empty()) return next;
+    for (const TriangleId t : bad) {
+      for (const VertexId v : next.mesh.corners(t)) draft.points[v] = first[v], draft.weighs[v] = 0;
+    }
+    go_back(draft, first, limit);
+  }
+  return std::nullopt;
+}
+
+void Run::polish(State& state) {
+  Nearness::Known known;
+  double least_margin = least_margin_of(state.mesh);
+  if (least_margin < options.margin && n_below(state.mesh, options.margin) <= kFewBad) {
+    std::optional<SurfaceMesh> changed = with_margin(state.mesh);
+    if (changed && bad(*changed) == 0 && least_margin_of(*changed) > least_margin) state.mesh = *std::move(changed);
+  }
+  // Small margins must not get smaller.
+  least_margin = std::min(options.margin, least_margin_of(state.mesh));
+  double least = energy_of(state.mesh, kLastGamma);
+  int steps = kSteps;
+  for (int round = 0; round < kRounds && steps >= 0 && !must_stop(); ++round) {
+    std::optional<State> next = lowered(state, steps, least_margin, known);
+    ++report.sweeps;
+    const double now = next ? energy_of(next->mesh, kLastGamma) : least;
+    if (now < least) state = *std::move(next);
+    record({.energy = now, .bad = state.bad, .flips = 0, .length_parameter = kLastGamma});
+    offer(state);
+    const double gain = least - now;
+    least = std::min(least, now);
+    if (gain > 0 && gain < kSmallPart * static_cast<double>(state.mesh.n_triangles())) break;
+    if (gain <= 0) steps = steps > 0 ? steps / 2 : -1;  // at last the weights alone
+  }
+}
+
 State Run::moved(const State& input, State best) {
   for (const bool with_weights : {false, true}) {
     if (best.bad == 0 || must_stop()) break;
@@ -245,6 +315,19 @@ State Run::best_of_limits(const State& input, State best, TurnLimit first) {
   return best;
 }
 
+State Run::best_of_starts(const State& input, const State& weighted, TurnLimit first) {
+  limit = first;
+  State best = weighted;
+  if (weighted.bad == 0 && input.bad > 0 && options.may_move) {
+    State found = moved(input, input);
+    if (found.bad == 0) best = std::move(found);
+  }
+  best = best_of_limits(input, std::move(best), first);
+  limit = first;
+  if (best.bad == 0 && input.bad > 0 && options.may_move) polish(best);
+  return best;
+}
+
 void Run::find_weights(State& state) const {
   Draft draft = weights_of(state.mesh);
   for (double gamma = kFirstGamma; gamma > kLastGamma && state.bad > 0 && !must_stop(); gamma *= kSteepGamma) {
@@ -254,17 +337,20 @@ void Run::find_weights(State& state) const {
     take_if_better(state, std::move(changed));
   }
   if (state.bad == 0 || state.bad > kFewBad || must_stop()) return;
+  if (std::optional<SurfaceMesh> changed = with_margin(state.mesh)) take_if_better(state, *std::move(changed));
+}
+
+std::optional<SurfaceMesh> Run::with_margin(SurfaceMesh mesh) const {
   WeightOptions request;
   request.goal = WeightGoal::elastic;
   request.from_input = true;
   request.margin = options.margin;
   request.constraints = constraints_of(options.criterion);
   request.must_stop = [this] { return must_stop(); };
-  const auto found = surfaces::find_weights(state.mesh, solver, request);
-  if (!found) return;
-  SurfaceMesh changed = state.mesh;
-  for (const VertexId v : changed.vertices()) changed.set_weight(v, found->weights[v]);
-  take_if_better(state, std::move(changed));
+  const auto found = surfaces::find_weights(mesh, solver, request);
+  if (!found) return std::nullopt;
+  for (const VertexId v : mesh.vertices()) mesh.set_weight(v, found->weights[v]);
+  return mesh;
 }
 
 void Run::take_if_better(State& state, SurfaceMesh changed) const {
@@ -307,11 +393,13 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
   const double sharp = options.crease_angle_deg;
   const Turns turns = turns_of(mesh, sharp);
   const TurnLimit first = {sharp, sharp, std::max(sharp, turns.largest_deg)};
-  State best = run.best_of_limits(input, weighted, first);
-  if (best.bad > 0 && options.may_slide) {
+  State best = run.best_of_starts(input, weighted, first);
+  if (input.bad > 0 && options.may_slide) {
     for (Track& track : input.tracks) track = track == kFree ? kFree : kHeld;
-    State held = run.best_of_limits(input, weighted, first);
-    if (held.bad < best.bad) best = std::move(held);
+    weighted.tracks = input.tracks;
+    State held = run.best_of_starts(input, weighted, first);
+    const bool has_less_energy = held.bad == 0 && energy_of(held.mesh, kLastGamma) < energy_of(best.mesh, kLastGamma);
+    if (held.bad < best.bad || (held.bad == best.bad && has_less_energy)) best = std::move(held);
   }
   report.turns_before = report.turns_after = turns;
   report.after = report.before;

@@ -6,7 +6,8 @@
 //
 // Two starts compete: moves alone, with weights at the end; and moves with weights. At first the surface must not turn
 // more at its edges than a limit. As long as bad triangles are left, all begins again, with a wider limit and without.
-// At last all begins again for vertices that do not slide.
+// If none is left, rounds lower the energy, so that margins and shapes get better. If vertices slide, all begins again
+// for vertices that do not, and the better result counts.
 #pragma once
 
 #include <algorithm>
@@ -59,6 +60,8 @@ struct Run {
     return cells_at_violations(mesh, options.criterion).size();
   }
 
+  /// The best of these, and of moves where weights alone suffice; then polished.
+  [[nodiscard]] State best_of_starts(const State& input, const State& weighted, TurnLimit first);
   /// The best of runs with wider and wider limits, or `best` if it is better.
   [[nodiscard]] State best_of_limits(const State& input, State best, TurnLimit first);
   /// The better of two starts, or `best` if it is better.
@@ -67,6 +70,13 @@ struct Run {
   void move_all(State& state, bool with_weights);
   /// Weights by descents, and for few bad cells by a linear program, if they leave fewer bad cells.
   void find_weights(State& state) const;
+  /// Rounds that lower the energy of a mesh without bad cells, as long as none becomes bad.
+  void polish(State& state);
+  /// One of these rounds; nothing if it fails, or if a margin is less than the least one.
+  [[nodiscard]] std::optional<State> lowered(const State& state, int steps, double least_margin,
+                                             Nearness::Known& known) const;
+  /// The mesh with weights by a linear program for the margin of the options; nothing if that fails.
+  [[nodiscard]] std::optional<SurfaceMesh> with_margin(SurfaceMesh mesh) const;
   void take_if_better(State& state, SurfaceMesh changed) const;
   [[nodiscard]] bool may_try() const { return trials < static_cast<std::size_t>(options.repair_trials); }
   /// Edits next to bad triangles, as long as one helps; then weights.
