@@ -9,13 +9,17 @@
 //   endsolid NAME
 //
 // Corners at one place become one point. Normals are dropped: corners say which side is which.
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 
 #include "io/formats/format.hpp"
+#include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 
 namespace temper::io {
@@ -27,6 +31,23 @@ std::uint32_t little_endian(std::string_view bytes) {
   std::uint32_t value = 0;
   for (std::size_t i = 4; i > 0; --i) value = value << 8 | static_cast<unsigned char>(bytes[i - 1]);
   return value;
+}
+
+/// Some programs write all words in upper case.
+bool is_word(std::string_view found, std::string_view word) { return lower_case(found) == word; }
+
+/// The number of triangles of binary STL, which may be cut short. Nothing if the bytes there are of a text.
+std::optional<std::uint32_t> n_of_binary(std::string_view beginning) {
+  if (beginning.size() < kStlHeader) return std::nullopt;
+  const std::string_view count = beginning.substr(kStlTitle, 4);
+  const auto is_text = [](char c) { return (c >= '\t' && c <= '\r') || (c >= ' ' && c <= '~'); };
+  if (std::ranges::all_of(count, is_text)) return std::nullopt;
+  return little_endian(count);
+}
+
+bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+std::string fault_of(Vec3 p) {
+  return text("a corner has coordinates (", p.x, ", ", p.y, ", ", p.z, "), expected finite numbers");
 }
 
 class StlReader {
@@ -49,12 +70,15 @@ class StlReader {
   void read_binary() {
     std::string_view bytes = std::string_view(source_.bytes).substr(kStlHeader);
     for (; !bytes.empty(); bytes.remove_prefix(kStlTriangle)) {
+      ++n_read_;
       std::array<Vec3, 3> corners;
       for (std::size_t k = 0; k < 3; ++k) {
         const auto coordinate = [&](std::size_t axis) {
           return double{std::bit_cast<float>(little_endian(bytes.substr(12 + 12 * k + 4 * axis, 4)))};
         };
         corners[k] = {coordinate(0), coordinate(1), coordinate(2)};
+        if (!is_finite(corners[k]))
+          fail(ErrorCode::not_finite, source_.path, text("triangle ", n_read_, ": ", fault_of(corners[k])));
       }
       add(corners);
     }
@@ -63,13 +87,13 @@ class StlReader {
   void read_text() {
     Scanner scanner(source_.path, source_.bytes, '\0');
     const auto expect = [&](std::string_view word) {
-      if (const std::string_view found = scanner.word(word); found != word)
+      if (const std::string_view found = scanner.word(word); !is_word(found, word))
         scanner.fail_here(ErrorCode::syntax, "expected '", word, "', found ", in_quotes(found));
     };
     while (!scanner.at_end()) {
       expect("solid");
       scanner.next_line();
-      while (scanner.peek() == "facet") {
+      while (is_word(scanner.peek(), "facet")) {
         const auto line = static_cast<std::int64_t>(scanner.line());
         expect("facet"), expect("normal");
         for (int k = 0; k < 3; ++k) static_cast<void>(scanner.real("a normal"));
@@ -80,6 +104,7 @@ class StlReader {
           p.x = scanner.real("the x coordinate of a vertex");
           p.y = scanner.real("the y coordinate of a vertex");
           p.z = scanner.real("the z coordinate of a vertex");
+          if (!is_finite(p)) scanner.fail_here(ErrorCode::not_finite, fault_of(p));
         }
         expect("endloop"), expect("endfacet");
         if (add(corners)) document_.names->triangle_lines.push_back(line);
@@ -114,7 +139,7 @@ class StlReader {
   Document document_;
   PlaneCheck plane_;
   std::unordered_map<Vec3, std::int32_t, PlaceHash> points_;
-  std::size_t n_flat_ = 0;
+  std::size_t n_read_ = 0, n_flat_ = 0;
 };
 
 }  // namespace
@@ -127,25 +152,24 @@ bool is_binary_stl(std::string_view beginning, std::uint64_t bytes) {
 }
 
 std::string fault_of_stl(std::string_view beginning, std::uint64_t bytes) {
-  constexpr std::uint64_t kLetters = 0x20202020;  // a text has at least this number of triangles
-  const std::uint64_t n = bytes < kStlHeader ? 0 : little_endian(beginning.substr(kStlTitle, 4));
-  if (n > 0 && n < kLetters) {
-    const std::uint64_t wanted = kStlHeader + kStlTriangle * n;
-    const std::string expected = text("expected ", wanted, " bytes for the ", n, " triangles of binary STL, found ");
+  if (const std::optional<std::uint32_t> n = n_of_binary(beginning)) {
+    const std::uint64_t wanted = kStlHeader + kStlTriangle * *n;
+    const std::string expected = text("expected ", wanted, " bytes for the ", *n, " triangles of binary STL, found ");
+    if (*n == 0) return "binary STL of 0 triangles, expected at least one";
     if (bytes > wanted) return text(expected, bytes);
     return text(expected, "the end of the file after ", bytes, ", in triangle ",
                 (bytes - kStlHeader) / kStlTriangle + 1);
   }
-  if (beginning.substr(0, 5) == "solid") return "expected 'facet' or 'endsolid' in the line after 'solid'";
+  if (is_word(beginning.substr(0, 5), "solid")) return "expected 'facet' or 'endsolid' in the line after 'solid'";
   return bytes < kStlHeader ? text("expected the ", kStlHeader, " bytes with which binary STL begins, found ", bytes)
                             : std::string();
 }
 
 bool sniff_stl(std::string_view head) {
   Scanner scanner("", head, '\0');
-  if (scanner.peek() != "solid") return false;
+  if (!is_word(scanner.peek(), "solid")) return false;
   scanner.next_line();
-  return scanner.peek() == "facet" || scanner.peek() == "endsolid";
+  return is_word(scanner.peek(), "facet") || is_word(scanner.peek(), "endsolid");
 }
 
 Document read_stl(Source& source) { return StlReader(source).read(); }

@@ -168,6 +168,23 @@ TEST_F(FilesOfSurfaces, TextAndBinaryStlGiveTheSameMesh) {
   EXPECT_EQ(error_of("cut.stl", "solid thing\n"), "cut.stl: expected 'facet' or 'endsolid' in the line after 'solid'");
   EXPECT_EQ(error_of("cut.stl", text.substr(0, 2000)).substr(0, 11), "cut.stl:82:");
   EXPECT_EQ(error_of("cut.bin", binary.substr(0, 1000)).substr(0, 35), "cut.bin: is none of the formats tha");
+  EXPECT_EQ(error_of("none.stl", std::string(84, '\0')), "none.stl: binary STL of 0 triangles, expected at least one");
+  std::string many = binary;
+  many.replace(0, 5, "solid").replace(80, 4, "\xff\xff\xff\xff");
+  EXPECT_EQ(
+      error_of("many.stl", many),
+      "many.stl: expected 214748364834 bytes for the 4294967295 triangles of binary STL, found the end of the file "
+      "after 6384, in triangle 127");
+  std::string upper = text, nan = binary;
+  for (char& c : upper) c = static_cast<char>(std::toupper(c));
+  const auto loud = read(make("loud.stl", upper));
+  ASSERT_TRUE(loud) << loud.error().what();
+  EXPECT_EQ(loud->triangles.corners, one->triangles.corners);
+  const float not_a_number = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(nan.data() + 84 + 50 * 4 + 12 + 8, &not_a_number, 4);
+  const std::string found = error_of("nan.stl", nan);
+  EXPECT_EQ(found.substr(0, 47), "nan.stl: triangle 5: a corner has coordinates (");
+  EXPECT_NE(found.find(", nan), expected finite numbers"), std::string::npos) << found;
 }
 
 TEST_F(FilesOfSurfaces, BadFilesAreNamed) {
@@ -176,6 +193,8 @@ TEST_F(FilesOfSurfaces, BadFilesAreNamed) {
             "m.stl:7: expected the z coordinate of a vertex, found 'endloop'");
   EXPECT_EQ(error_of("m.stl", begin + "endloop\n"), "m.stl:6: expected 'vertex', found 'endloop'");
   EXPECT_EQ(error_of("m.stl", begin), "m.stl:6: the file ends where vertex was expected");
+  EXPECT_EQ(error_of("m.stl", begin + "vertex 0 1 inf\nendloop\nendfacet\nendsolid\n"),
+            "m.stl:6: a corner has coordinates (0, 1, inf), expected finite numbers");
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1.5\n";
   EXPECT_EQ(error_of("m.obj", points + "f 1 2 3\nf 2 1 4\nf 1 2 5\n"),
             "m.obj:8: the edge from point 1 to point 2 belongs to 3 triangles (triangle 1 and triangle 3 among them); "
