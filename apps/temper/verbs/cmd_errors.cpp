@@ -107,7 +107,9 @@ void check_fields(const MeasureErrorsOptions& options) {
   const auto of_tetrahedra = tets::measure_errors({}, {.fields = options.fields});
   if (unknown(Space()) && unknown(Space::sphere(1)) && unknown(Space::periodic({1, 1})) &&
       of_tetrahedra.error().code == ErrorCode::invalid_option) {
-    throw Failure(Exit::bad_usage, "--fields: " + report.error().message + "\nSee temper errors --help");
+    const std::string& others = of_tetrahedra.error().message;
+    throw Failure(Exit::bad_usage, "--fields: " + report.error().message + others.substr(others.find(';')) +
+                                       "\nSee temper errors --help");
   }
 }
 

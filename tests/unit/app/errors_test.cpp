@@ -80,7 +80,7 @@ TEST_F(Errors, TetrahedraHaveTheSameVerb) {
   };
   refused({"--refine", "1"}, "a.mesh has tetrahedra, and --refine is for triangles alone");
   refused({"--dirichlet", "1=0"}, "--dirichlet is for triangles alone");
-  refused({"--fields", "bump"}, "no field 'bump'; the fields of tetrahedra are ");
+  refused({"--fields", "bump"}, "no field 'bump'; the fields of tetrahedra and curved surfaces are ");
   make_input();
   refused({"--against", "in.vtu"}, "in.vtu: expected tetrahedra, as in a.mesh, found triangles");
 }
@@ -239,6 +239,8 @@ TEST_F(Errors, BadUsageIsRefusedAndNothingIsWritten) {
   const Outcome field = temper({"errors", "in.vtu", "--fields", "chosen,sine", "--edges", "edges.csv"});
   EXPECT_EQ(field.exit, 2);
   EXPECT_TRUE(contains(field.err, "--fields: no field 'sine'; the fields are all, chosen, held-back, exact, product"));
+  EXPECT_TRUE(
+      contains(field.err, "; the fields of tetrahedra and curved surfaces are all, chosen, held-back, exact, "));
   EXPECT_EQ(temper({"errors"}).exit, 2);
   EXPECT_EQ(temper({"errors", "in.vtu", "--fields", ""}).exit, 2);
   EXPECT_EQ(temper({"errors", "in.vtu", "--refine", "-1"}).exit, 2);

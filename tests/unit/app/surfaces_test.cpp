@@ -270,7 +270,8 @@ TEST_F(Surfaces, WhatIsNotForThemIsRefusedByName) {
   EXPECT_TRUE(contains(error_of({"optimize", "in.obj", "-o", "out.obj", "--crease-angle", "0"}),
                        "--crease-angle: 0 is out of range"));
   EXPECT_TRUE(contains(error_of({"errors", "in.obj", "--refine", "1"}), has + "--refine is for triangles alone"));
-  EXPECT_TRUE(contains(error_of({"errors", "in.obj", "--fields", "product"}), "fields of curved surfaces are all"));
+  EXPECT_TRUE(contains(error_of({"errors", "in.obj", "--fields", "product"}),
+                       "fields of tetrahedra and curved surfaces are all"));
   make_input();
   EXPECT_TRUE(contains(error_of({"optimize", "in.vtu", "-o", "out.vtu", "--surface-distance", "0.1"}),
                        "in.vtu has triangles, and --surface-distance is for curved surfaces alone"));

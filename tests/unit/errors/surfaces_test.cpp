@@ -109,8 +109,8 @@ TEST(SurfaceErrors, BadInputIsNamed) {
   const SurfaceMesh mesh = test::mesh_of(test::icosphere(0));
   EXPECT_EQ(measure_errors({}).error().code, ErrorCode::empty_input);
   const auto error = measure_errors(mesh, {.fields = {"product"}}).error();
-  EXPECT_EQ(error.message.substr(0, 76),
-            "no field 'product'; the fields of curved surfaces are all, chosen, held-back");
+  EXPECT_EQ(error.message.substr(0, 91),
+            "no field 'product'; the fields of tetrahedra and curved surfaces are all, chosen, held-back");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(measure_errors(mesh, {.frame = FieldFrame{{0, 0, nan}, 1}}).error().code, ErrorCode::invalid_option);
   EXPECT_EQ(measure_errors(mesh, {.frame = FieldFrame{{0, 0, 0}, 0}}).error().code, ErrorCode::invalid_option);
