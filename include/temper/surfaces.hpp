@@ -347,18 +347,17 @@ struct SurfaceOptions {
   /// its coefficients are larger.
   Criterion criterion = Criterion::well_centered;
   double margin = 0.01;  ///< Margin t of the final weights, in (0, 1/2)
-  /// Largest distance between all points of input and result, both ways, in parts of the diagonal of the bounding box.
-  /// It holds for lines, too.
+  /// Largest distance between all points of input and result, both ways, and between those of their lines, in parts of
+  /// the diagonal of the bounding box.
   double surface_distance = 0.005;
-  /// Creases are edges whose triangles turn by more than this angle, from 1° to 180°. No vertex leaves a
-  /// crease. New vertices may split its edges. A thin triangle that two such edges fold out of the surface has none.
+  /// Creases are edges whose triangles turn by more than this angle, from 1° to 180°. No vertex leaves a crease. New
+  /// vertices may split its edges. A thin triangle that two such edges fold out of the surface has none.
   double crease_angle_deg = 70;
   bool may_flip = true;    ///< Allow flips of edges in space
   bool may_insert = true;  ///< Allow edges to be split and collapsed next to bad triangles
   bool may_move = true;    ///< Allow vertices to move. Else only weights change
   /// Allow vertices of lines to slide along the line of the input. A line is a piece of the boundary, of a crease or of
-  /// constrained edges. Its ends, and vertices where it bends by more than 40°, stay. false: all vertices of lines
-  /// stay.
+  /// constrained edges. Its ends, and vertices where it bends by more than 40°, stay. If false, all vertices stay.
   bool may_slide = false;
   /// Repairs end after this number of edits in a row that do not help. Usually fewer than one edit of 20 helps.
   int repair_trials = 600;
@@ -382,8 +381,7 @@ struct Turns {
 struct SurfaceReport : RunReport {
   Quality before, after;
   std::size_t violations_before = 0, violations_after = 0;  ///< Numbers of violations of the criterion
-  /// Bound of the distance between all points of input and result, both ways [length]. At most about a thousandth
-  /// above the largest distance.
+  /// Bound of the distance between all points of input and result, both ways [length], a thousandth above it at most
   double surface_distance = 0;
   double diagonal = 0;      ///< Diagonal of the bounding box of the input [length]
   std::size_t repairs = 0;  ///< Number of edits next to bad triangles

@@ -1,32 +1,17 @@
-// optimize(): checks the options, marks creases, and compares two starts.
+// optimize(): checks the options, marks creases, and compares runs.
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <string>
 
-#include "base/sort_unique.hpp"
 #include "base/text.hpp"
-#include "feasibility/demand.hpp"
 #include "geometry/bounding_boxes.hpp"
 #include "optimize/options/settings.hpp"
 #include "optimize/run/end_of_run.hpp"
 #include "surfaces/mesh/surface_editor.hpp"
-#include "surfaces/optimize/flips.hpp"
 #include "surfaces/optimize/run.hpp"
 #include "temper/detail/optimize_table.hpp"
 
 namespace temper::surfaces {
 namespace {
-
-constexpr int kRounds = 16, kSteps = 30;
-constexpr double kFirstGamma = 1, kLastGamma = 0.01, kGammaFactor = 0.72;
-constexpr double kSmallPart = 1e-3;  // the least gain of energy of a triangle that another round is worth
-constexpr double kSteepGamma = 0.4;  // factor from one descent of weights alone to the next
-// Edges of triangles that are not well-centered may turn more than creases by this angle [degrees]. With 0, two more
-// public meshes (bunny, screwdriver) keep bad triangles.
-constexpr double kMoreAtBad = 20;
-// Linear programs are for the last bad triangles: around many of them their regions meet, and cost minutes.
-constexpr std::size_t kFewBad = 100;
 
 std::optional<InputError> expect_options(const SurfaceOptions& o) {
   const auto error = [](const std::string& name, const std::string& expected, double found) {
@@ -73,72 +58,17 @@ std::vector<HalfedgeId> creases_of(const SurfaceMesh& mesh, double angle_deg) {
   return creases;
 }
 
-/// Gives the mesh of a state the points of a draft, whose vertices go back to their first places until all is near the
-/// input. False if that is not enough.
-bool take(State& state, Draft& draft, const IdVector<VertexId, WeightedPoint>& first, Nearness::Known& known,
-          const Run& run) {
-  constexpr int kTries = 8;
-  for (int i = 0; i < kTries && !run.must_stop(); ++i) {
-    for (const VertexId v : state.mesh.vertices()) {
-      state.mesh.set_position(v, draft.points[v].position());
-      state.mesh.set_weight(v, draft.points[v].w);
-    }
-    const std::vector<VertexId> far = run.too_far(state, known);
-    if (far.empty()) return true;
-    for (const VertexId v : far) draft.points[v] = {first[v].x, first[v].y, first[v].z, draft.points[v].w};
-    go_back(draft, first, run.limit);
+/// The state of an input, in which creases are constrained.
+State with_creases(const SurfaceMesh& mesh, double angle_deg) {
+  State state{mesh, nullptr, {}, {}, {}};
+  Mesh& connectivity = SurfaceEditor(state.mesh).connectivity();
+  for (const HalfedgeId h : creases_of(mesh, angle_deg)) {
+    state.creases.push_back(ascending(connectivity.origin(h), connectivity.target(h)));
+    connectivity.set_constrained(h, true);
   }
-  return false;
-}
-
-/// All of a mesh.
-Draft draft_of(const SurfaceMesh& mesh, const IdVector<VertexId, Track>& tracks, const Lines* lines,
-               bool with_weights) {
-  Draft draft;
-  draft.tracks = tracks;
-  draft.lines = lines;
-  for (const VertexId v : mesh.vertices()) {
-    draft.points.push_back(mesh.point(v));
-    draft.weighs.push_back(with_weights && !mesh.connectivity().is_frozen(v) ? 1 : 0);
-  }
-  for (const TriangleId t : mesh.triangles()) draft.triangles.push_back(mesh.connectivity().corners(t));
-  return draft;
-}
-
-/// All of a mesh, whose weights alone change.
-Draft weights_of(const SurfaceMesh& mesh) {
-  return draft_of(mesh, IdVector<VertexId, Track>(mesh.n_vertices(), kHeld), nullptr, true);
-}
-
-/// The energy of a mesh.
-double energy_of(const SurfaceMesh& mesh, double gamma) {
-  Draft draft = weights_of(mesh);
-  return DraftEnergy(draft, gamma).value().lowered;
-}
-
-double margin_of(const SurfaceMesh& mesh, TriangleId t) {
-  const TriangleQuality quality = triangle_quality(mesh, t);
-  return std::min(quality.min_h_over_l, quality.min_d_over_l);
-}
-
-double least_margin_of(const SurfaceMesh& mesh) {
-  double least = 1;
-  for (const TriangleId t : mesh.triangles()) least = std::min(least, margin_of(mesh, t));
-  return least;
-}
-
-std::size_t n_below(const SurfaceMesh& mesh, double margin) {
-  std::size_t n = 0;
-  for (const TriangleId t : mesh.triangles()) n += margin_of(mesh, t) < margin ? 1 : 0;
-  return n;
-}
-
-/// The mesh of a state as the user has it: creases are not constrained.
-SurfaceMesh without_creases(const State& state) {
-  SurfaceMesh mesh = state.mesh;
-  Mesh& connectivity = SurfaceEditor(mesh).connectivity();
-  for (const auto& [a, b] : state.creases) connectivity.set_constrained(connectivity.find_halfedge(a, b), false);
-  return mesh;
+  std::sort(state.creases.begin(), state.creases.end());
+  for (const VertexId v : mesh.vertices()) state.origins.push_back(v);
+  return state;
 }
 
 }  // namespace
@@ -169,197 +99,6 @@ Expected<SurfaceOptions> surface_options(const OptimizeOptions& options) {
   return made;
 }
 
-double Run::seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
-
-bool Run::must_stop() const {
-  if (stopped_early(report.stopped)) return true;
-  const auto from = options.started.value_or(start);
-  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - from;
-  if (options.time_limit > 0 && passed.count() > options.time_limit) report.stopped = Stopped::time_limit;
-  if (options.must_stop && options.must_stop()) report.stopped = Stopped::canceled;
-  return stopped_early(report.stopped);
-}
-
-std::vector<VertexId> Run::too_far(const State& state, Nearness::Known& known) const {
-  std::vector<VertexId> far = nearness.too_far(state.mesh, known);
-  const std::vector<VertexId> of_lines = state.lines->too_far(state.mesh, state.tracks, nearness.most());
-  far.insert(far.end(), of_lines.begin(), of_lines.end());
-  sort_unique(far);
-  return far;
-}
-
-void Run::record(SweepRecord measured) const {
-  measured.sweep = report.sweeps;
-  measured.seconds = seconds();
-  report.history.push_back(measured);
-  if (options.observer && options.observer({measured, 0, 2 * kRounds}) == Continue::no)
-    report.stopped = Stopped::canceled;
-}
-
-void Run::offer(const State& found) {
-  if (!options.best_so_far) return;
-  if (!shown || found.bad < shown->bad) shown = found;
-  options.best_so_far([this](const std::function<void(const BestSoFar&)>& use) {
-    use({without_creases(*shown), shown->repairs > 0 ? shown->origins : IdVector<VertexId, VertexId>()});
-  });
-}
-
-void Run::move_all(State& state, bool with_weights) {
-  State best = state;
-  double gamma = kFirstGamma;
-  Nearness::Known known;
-  for (int round = 0; round < kRounds && best.bad > 0 && !must_stop(); ++round) {
-    const SurfaceMesh before = state.mesh;
-    Draft draft = draft_of(before, state.tracks, state.lines, with_weights);
-    const IdVector<VertexId, WeightedPoint> first = draft.points;
-    DraftEnergy energy(draft, gamma);
-    energy.lower(kSteps, [this] { return must_stop(); });
-    if (must_stop()) break;
-    energy.project(nearness.input(), limit);
-    if (!take(state, draft, first, known, *this)) state.mesh = before;
-    std::size_t flips = 0;
-    if (options.may_flip) {
-      const SurfaceMesh unflipped = state.mesh;
-      flips = flip_negative_duals(state.mesh, nearness, limit);
-      if (flips > 0 && !too_far(state, known).empty()) {
-        state.mesh = unflipped;
-        flips = 0;
-      }
-    }
-    report.flips += flips;
-    ++report.sweeps;
-    state.bad = bad(state.mesh);
-    record({.energy = energy_of(state.mesh, gamma), .bad = state.bad, .flips = flips, .length_parameter = gamma});
-    if (state.bad <= best.bad) best = state;
-    offer(best);
-    gamma = std::max(kLastGamma, gamma * kGammaFactor);
-  }
-  state = std::move(best);
-}
-
-std::optional<State> Run::lowered(const State& state, int steps, double least_margin, Nearness::Known& known) const {
-  const auto never = [this] { return must_stop(); };
-  Draft draft = draft_of(state.mesh, state.tracks, state.lines, true);
-  const IdVector<VertexId, WeightedPoint> first = draft.points;
-  DraftEnergy energy(draft, kLastGamma);
-  energy.lower(steps, never);
-  energy.project(nearness.input(), limit);
-  State next = state;
-  constexpr int kTries = 4;
-  for (int i = 0; i < kTries && take(next, draft, first, known, *this); ++i) {
-    Draft weights = weights_of(next.mesh);
-    for (const VertexId v : next.mesh.vertices()) weights.weighs[v] = draft.weighs[v];
-    DraftEnergy(weights, kLastGamma).lower(kSteps, never);
-    for (const VertexId v : next.mesh.vertices()) next.mesh.set_weight(v, weights.points[v].w);
-    std::vector<TriangleId> bad = cells_at_violations(next.mesh, options.criterion);
-    for (const TriangleId t : next.mesh.triangles()) {
-      if (margin_of(next.mesh, t) < least_margin) bad.push_back(t);
-    }
-    if (bad.empty()) return next;
-    for (const TriangleId t : bad) {
-      for (const VertexId v : next.mesh.corners(t)) draft.points[v] = first[v], draft.weighs[v] = 0;
-    }
-    go_back(draft, first, limit);
-  }
-  return std::nullopt;
-}
-
-void Run::polish(State& state) {
-  Nearness::Known known;
-  double least_margin = least_margin_of(state.mesh);
-  if (least_margin < options.margin && n_below(state.mesh, options.margin) <= kFewBad) {
-    std::optional<SurfaceMesh> changed = with_margin(state.mesh);
-    if (changed && bad(*changed) == 0 && least_margin_of(*changed) > least_margin) state.mesh = *std::move(changed);
-  }
-  // Small margins must not get smaller.
-  least_margin = std::min(options.margin, least_margin_of(state.mesh));
-  double least = energy_of(state.mesh, kLastGamma);
-  int steps = kSteps;
-  for (int round = 0; round < kRounds && steps >= 0 && !must_stop(); ++round) {
-    std::optional<State> next = lowered(state, steps, least_margin, known);
-    ++report.sweeps;
-    const double now = next ? energy_of(next->mesh, kLastGamma) : least;
-    if (now < least) state = *std::move(next);
-    record({.energy = now, .bad = state.bad, .flips = 0, .length_parameter = kLastGamma});
-    offer(state);
-    const double gain = least - now;
-    least = std::min(least, now);
-    if (gain > 0 && gain < kSmallPart * static_cast<double>(state.mesh.n_triangles())) break;
-    if (gain <= 0) steps = steps > 0 ? steps / 2 : -1;  // at last the weights alone
-  }
-}
-
-State Run::moved(const State& input, State best) {
-  for (const bool with_weights : {false, true}) {
-    if (best.bad == 0 || must_stop()) break;
-    State changed = input;
-    move_all(changed, with_weights);
-    find_weights(changed);
-    offer(changed);
-    if (changed.bad < best.bad) best = std::move(changed);
-  }
-  return best;
-}
-
-State Run::best_of_limits(const State& input, State best, TurnLimit first) {
-  const State weighted = best;
-  TurnLimit second = first;
-  second.at_bad += kMoreAtBad;
-  for (const TurnLimit& next : {first, second, TurnLimit()}) {
-    if (best.bad == 0 || !options.may_move || must_stop()) break;
-    limit = next;
-    State found = moved(input, weighted);
-    if (limit.at_bad > first.at_bad && options.may_insert) repair(found);
-    if (found.bad < best.bad) best = std::move(found);
-  }
-  return best;
-}
-
-State Run::best_of_starts(const State& input, const State& weighted, TurnLimit first) {
-  limit = first;
-  State best = weighted;
-  if (weighted.bad == 0 && input.bad > 0 && options.may_move) {
-    State found = moved(input, input);
-    if (found.bad == 0) best = std::move(found);
-  }
-  best = best_of_limits(input, std::move(best), first);
-  limit = first;
-  if (best.bad == 0 && input.bad > 0 && options.may_move) polish(best);
-  return best;
-}
-
-void Run::find_weights(State& state) const {
-  Draft draft = weights_of(state.mesh);
-  for (double gamma = kFirstGamma; gamma > kLastGamma && state.bad > 0 && !must_stop(); gamma *= kSteepGamma) {
-    DraftEnergy(draft, gamma).lower(kSteps, [this] { return must_stop(); });
-    SurfaceMesh changed = state.mesh;
-    for (const VertexId v : changed.vertices()) changed.set_weight(v, draft.points[v].w);
-    take_if_better(state, std::move(changed));
-  }
-  if (state.bad == 0 || state.bad > kFewBad || must_stop()) return;
-  if (std::optional<SurfaceMesh> changed = with_margin(state.mesh)) take_if_better(state, *std::move(changed));
-}
-
-std::optional<SurfaceMesh> Run::with_margin(SurfaceMesh mesh) const {
-  WeightOptions request;
-  request.goal = WeightGoal::elastic;
-  request.from_input = true;
-  request.margin = options.margin;
-  request.constraints = constraints_of(options.criterion);
-  request.must_stop = [this] { return must_stop(); };
-  const auto found = surfaces::find_weights(mesh, solver, request);
-  if (!found) return std::nullopt;
-  for (const VertexId v : mesh.vertices()) mesh.set_weight(v, found->weights[v]);
-  return mesh;
-}
-
-void Run::take_if_better(State& state, SurfaceMesh changed) const {
-  const std::size_t left = bad(changed);
-  if (left >= state.bad) return;
-  state.mesh = std::move(changed);
-  state.bad = left;
-}
-
 namespace {
 
 SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options) {
@@ -371,18 +110,12 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
   Run run{options, nearness, solver, report};
   run.start = options.started.value_or(begin);
 
-  State input{mesh, nullptr, {}, {}, {}, run.bad(mesh)};
-  Mesh& connectivity = SurfaceEditor(input.mesh).connectivity();
-  for (const HalfedgeId h : creases_of(mesh, options.crease_angle_deg)) {
-    input.creases.push_back(ascending(mesh.connectivity().origin(h), mesh.connectivity().target(h)));
-    connectivity.set_constrained(h, true);
-  }
-  std::sort(input.creases.begin(), input.creases.end());
+  State input = with_creases(mesh, options.crease_angle_deg);
+  input.bad = run.bad(mesh);
   report.crease_edges = input.creases.size();
   const Lines lines(input.mesh, input.creases, options.may_slide);
   input.lines = &lines;
   input.tracks = lines.tracks();
-  for (const VertexId v : mesh.vertices()) input.origins.push_back(v);
 
   report.objective = Objective::energy;
   report.bad_before = violations(report.before, Criterion::well_centered);
@@ -393,14 +126,7 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
   const double sharp = options.crease_angle_deg;
   const Turns turns = turns_of(mesh, sharp);
   const TurnLimit first = {sharp, sharp, std::max(sharp, turns.largest_deg)};
-  State best = run.best_of_starts(input, weighted, first);
-  if (input.bad > 0 && options.may_slide) {
-    for (Track& track : input.tracks) track = track == kFree ? kFree : kHeld;
-    weighted.tracks = input.tracks;
-    State held = run.best_of_starts(input, weighted, first);
-    const bool has_less_energy = held.bad == 0 && energy_of(held.mesh, kLastGamma) < energy_of(best.mesh, kLastGamma);
-    if (held.bad < best.bad || (held.bad == best.bad && has_less_energy)) best = std::move(held);
-  }
+  const State best = run.best_of_tracks(input, weighted, first);
   report.turns_before = report.turns_after = turns;
   report.after = report.before;
   report.objective_after = report.objective_before;

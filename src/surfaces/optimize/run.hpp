@@ -37,6 +37,13 @@ struct State {
 
 [[nodiscard]] Turns turns_of(const SurfaceMesh& mesh, double sharp_deg);
 
+/// The mesh of a state as the user has it: creases are not constrained.
+[[nodiscard]] SurfaceMesh without_creases(const State& state);
+
+inline constexpr double kLastGamma = 0.01;  // of all rounds
+/// The energy of a mesh.
+[[nodiscard]] double energy_of(const SurfaceMesh& mesh, double gamma);
+
 struct Run {
   const SurfaceOptions& options;
   const Nearness& nearness;
@@ -60,7 +67,9 @@ struct Run {
     return cells_at_violations(mesh, options.criterion).size();
   }
 
-  /// The best of these, and of moves where weights alone suffice; then polished.
+  /// The best of starts whose vertices slide along lines, if they may, and of starts whose vertices stay there.
+  [[nodiscard]] State best_of_tracks(State input, State weighted, TurnLimit first);
+  /// The best of runs with wider and wider limits, and of moves where weights alone suffice; then polished.
   [[nodiscard]] State best_of_starts(const State& input, const State& weighted, TurnLimit first);
   /// The best of runs with wider and wider limits, or `best` if it is better.
   [[nodiscard]] State best_of_limits(const State& input, State best, TurnLimit first);
