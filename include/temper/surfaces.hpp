@@ -343,8 +343,8 @@ struct BestSoFar {
 };
 
 struct SurfaceOptions {
-  /// The run ends when the mesh meets it. A run for another criterion than well_centered tries that one first, because
-  /// its coefficients are larger.
+  /// Condition on the mesh. A run for another one than well_centered tries that one first, because its coefficients are
+  /// larger. Once a mesh meets it, up to 16 rounds make margins larger.
   Criterion criterion = Criterion::well_centered;
   double margin = 0.01;  ///< Margin t of the final weights, in (0, 1/2)
   /// Largest distance between all points of input and result, both ways, and between those of their lines, in parts of
@@ -381,7 +381,7 @@ struct Turns {
 struct SurfaceReport : RunReport {
   Quality before, after;
   std::size_t violations_before = 0, violations_after = 0;  ///< Numbers of violations of the criterion
-  /// Bound of the distance between all points of input and result, both ways [length], a thousandth above it at most
+  /// Upper bound of the distance between input and result, from each point of one to the other [length]
   double surface_distance = 0;
   double diagonal = 0;      ///< Diagonal of the bounding box of the input [length]
   std::size_t repairs = 0;  ///< Number of edits next to bad triangles
@@ -392,9 +392,10 @@ struct SurfaceReport : RunReport {
 };
 [[nodiscard]] const ReportTable& table_of(const SurfaceReport*);
 
-/// Improves a mesh in place until it meets the criterion. Vertices move in their tangent planes and come back to the
-/// input surface. Edges flip in space, and weights follow by linear programs. Vertices on the boundary, on constrained
-/// edges and on creases stay, or slide along them with may_slide. Fixed vertices stay. Errors: an option out of range.
+/// Improves a mesh in place until it meets the criterion, and then its margins. A mesh that meets it already stays.
+/// Vertices move in their tangent planes and come back to the input surface. Edges flip in space, and weights follow by
+/// linear programs. Vertices on the boundary, on constrained edges and on creases stay, or slide along them with
+/// may_slide. Fixed vertices stay. Errors: an option out of range.
 [[nodiscard]] Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options = {});
 
 }  // namespace temper::surfaces

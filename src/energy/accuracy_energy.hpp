@@ -92,7 +92,7 @@ class AccuracyFloors {
   LengthFloors lengths;  ///< if the model has floors of lengths
 
  private:
-  static constexpr std::size_t kBlock = 32;  // few have less: each takes as much room as its block
+  static constexpr std::size_t kBlock = 32;  // few triangles have less, and each of them costs a block
 
   std::size_t raise_block(const Mesh& mesh, std::size_t block, bool first);
 

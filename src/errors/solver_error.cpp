@@ -26,8 +26,8 @@ namespace {
 struct SegmentMeans {
   using Values = std::array<double, kDirections>;
   Values even, odd;
-  Values half_secant;    ///< 1/(2 cos h)
-  bool is_long = false;  ///< then secants are not accurate
+  Values half_secant;    ///< 1/(2 cos h), for short segments
+  bool is_long = false;  ///< in some direction
 
   SegmentMeans() = default;
   explicit SegmentMeans(const Values& h) {

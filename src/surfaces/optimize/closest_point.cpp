@@ -180,10 +180,11 @@ double Target::squared_distance(Vec3 p, double most) const {
   double farthest = 0, least = kInfinity;
   for (std::size_t k = 0; k < 3; ++k) farthest = std::max(farthest, beyond(k, p));
   if ((height * height + farthest * farthest) * kSafe > most) return kInfinity;
-  if (!is_segment() && farthest == 0) return height * height;
+  const bool is_sliver = !is_segment() && squared_length(normal) == 0;  // then its sides are all there is
+  if (!is_segment() && !is_sliver && farthest == 0) return height * height;
   // The closest point is on a side that p is beyond.
   for (std::size_t k = 0; k < 3; ++k) {
-    if (is_segment() ? k > 0 : beyond(k, p) <= 0) continue;
+    if (is_segment() ? k > 0 : !is_sliver && beyond(k, p) <= 0) continue;
     least = std::min(least, squared_length(on_segment(corners[k], corners[(k + 1) % 3], p) - p));
   }
   return least <= most ? least : kInfinity;

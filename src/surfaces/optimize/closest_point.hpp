@@ -27,7 +27,7 @@ struct DistanceBound {
 /// A triangle or a segment, and planes across it: through its sides, or through its ends. Their normals face away.
 struct Target {
   std::array<Vec3, 3> corners;  ///< Of a segment the third one is the first
-  Vec3 normal;                  ///< Of length 1; zero for a segment
+  Vec3 normal;                  ///< Of length 1; zero for a segment, and for a triangle whose area is rounding
   std::array<Vec3, 3> away;     ///< Unit normal of the plane through corners k and k + 1, or corner k + 1
 
   explicit Target(const std::array<Vec3, 3>& triangle);

@@ -22,7 +22,8 @@ struct Draft {
   const Lines* lines = nullptr;             ///< For tracks that are lines
 };
 
-[[nodiscard]] inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
+/// The direction of a; 0 if it has none.
+[[nodiscard]] inline Vec3 unit(Vec3 a) { return squared_length(a) > 0 ? (1 / length(a)) * a : Vec3{}; }
 [[nodiscard]] inline Vec3 normal_of(Vec3 a, Vec3 b, Vec3 c) { return cross(b - a, c - a); }
 
 /// Twice the area over the square of the longest side: 0.87 for equilateral triangles.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kRounds = 16, kSteps = 30;
 constexpr double kFirstGamma = 1, kGammaFactor = 0.72;
-constexpr double kSmallPart = 1e-3;  // the least gain of energy of a triangle that another round is worth
+constexpr double kSmallPart = 1e-3;  // a round that lowers the energy per triangle by less is the last
 constexpr double kSteepGamma = 0.4;  // factor from one descent of weights alone to the next
 // Edges of triangles that are not well-centered may turn more than creases by this angle [degrees]. With 0, two more
 // public meshes (bunny, screwdriver) keep bad triangles.
@@ -119,7 +119,7 @@ void Run::record(SweepRecord measured) const {
 
 void Run::offer(const State& found) {
   if (!options.best_so_far) return;
-  if (!shown || found.bad < shown->bad) shown = found;
+  if (!shown || found.bad <= shown->bad) shown = found;
   options.best_so_far([this](const std::function<void(const BestSoFar&)>& use) {
     use({without_creases(*shown), shown->repairs > 0 ? shown->origins : IdVector<VertexId, VertexId>()});
   });

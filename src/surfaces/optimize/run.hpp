@@ -6,8 +6,8 @@
 //
 // Two starts compete: moves alone, with weights at the end; and moves with weights. At first the surface must not turn
 // more at its edges than a limit. As long as bad triangles are left, all begins again, with a wider limit and without.
-// If none is left, rounds lower the energy, so that margins and shapes get better. If vertices slide, all begins again
-// for vertices that do not, and the better result counts.
+// If none is left, rounds lower the energy, so that margins and shapes get better. If vertices slide, the whole run is
+// repeated with these vertices held, and the better result counts.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +58,7 @@ struct Run {
   [[nodiscard]] bool must_stop() const;
   /// Puts a mesh into the history, and shows the progress.
   void record(SweepRecord measured) const;
-  /// Shows the best mesh so far to the listener. It is `found`, if this has the fewest bad cells.
+  /// Shows the best mesh so far to the listener. It is `found`, unless this has more bad cells than one before.
   void offer(const State& found);
   [[nodiscard]] double seconds() const;
   /// The vertices of triangles and of lines that are too far from those of the input. Ascending.

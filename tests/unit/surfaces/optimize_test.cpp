@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "support/surface_meshes.hpp"
 #include "surfaces/optimize/barrier.hpp"
@@ -215,6 +216,15 @@ double sampled_distance(const SurfaceMesh& from, const SurfaceMesh& to, int per_
     }
   }
   return most;
+}
+
+TEST(SurfaceClosestPoint, ATriangleWhoseAreaIsRoundingIsItsSides) {
+  const Target sliver({Vec3{0, 0, 0}, {1, 0.08, 0}, {0.22, 0.22 * 0.08, 0}});
+  EXPECT_EQ(length(sliver.normal), 0);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(sliver.squared_distance({1, 0.08, 0.5}, infinity), 0.25, 1e-15);
+  EXPECT_EQ(sliver.squared_distance({-3, 4, 0}, infinity), 25);
+  EXPECT_EQ(sliver.squared_distance({-3, 4, 0}, 24), infinity);
 }
 
 TEST(SurfaceDistance, TheBoundOfATriangleIsTheLargestDistanceOfItsPoints) {
