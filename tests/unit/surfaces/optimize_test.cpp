@@ -196,7 +196,10 @@ TEST(SurfaceClosestPoint, IsTheBestOfAllTriangles) {
     const double distance = brute_force_distance(mesh, p);
     EXPECT_NEAR(std::sqrt(closest.find(p).squared_distance), distance, 1e-14);
   }
-  for (const VertexId v : mesh.vertices()) EXPECT_EQ(closest.find(mesh.position(v)).squared_distance, 0);
+  // The height of a corner above the rounded plane of its triangle is rounding.
+  for (const VertexId v : mesh.vertices()) {
+    EXPECT_LE(std::sqrt(closest.find(mesh.position(v)).squared_distance), 1e-15) << v.index;
+  }
 }
 
 /// The largest distance of random points of a mesh from another one, if some are a corner.
