@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Measures the time of each target over that of the default, and over that of an older release.
+"""Divides the time of each target by that of the default, and by that of an older release.
 
     bench/target_times.py TEMPER [--against OLD] [--sets public,tetrahedra,1000,100000] [--limit 300]
 
 TEMPER and OLD are the programs of two release builds. The sets are the public meshes of triangles and of tetrahedra in the
 folder that TEMPER_SHARED names (default: ../shared), and random points by their number. All runs use one thread, and the
-builds run in turn. Times are those of the processor. Each run is repeated three times, and the smallest time counts. Runs over
+builds run in turn. Times are processor seconds. Each run is repeated three times, and the smallest time counts. Runs over
 2 s run once. A ratio divides the sums over the meshes. The geometric mean of the ratios follows in brackets, and then the number
 of meshes that both runs finished. Runs that need more than --limit seconds are left out.
 """

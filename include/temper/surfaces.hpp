@@ -178,8 +178,7 @@ struct BuiltSurface {
 // --- quality --------------------------------------------------------------------------------------------------------
 
 /// The report on a surface. No triangle of a surface is inverted. Energies and SolverMeasures are not measured: they
-/// keep the values that they have without a mesh. `at` of a place is x and y, and `z` the
-/// third coordinate.
+/// keep the values that they have without a mesh. `at` of a place is x and y, and `z` the third coordinate.
 struct Quality : temper::Quality {};
 [[nodiscard]] const ReportTable& table_of(const Quality*);
 /// The rows of temper::quality_measures() that are measured on surfaces.
@@ -347,8 +346,8 @@ struct SurfaceOptions {
   /// larger. Once a mesh meets it, up to 16 rounds make margins larger.
   Criterion criterion = Criterion::well_centered;
   double margin = 0.01;  ///< Margin t of the final weights, in (0, 1/2)
-  /// Largest distance between all points of input and result, both ways, and between those of their lines, in parts of
-  /// the diagonal of the bounding box.
+  /// Largest distance from each point of the input to the result, and back, as a part of the diagonal of the bounding
+  /// box. It also holds between lines.
   double surface_distance = 0.005;
   /// Creases are edges whose triangles turn by more than this angle, from 1° to 180°. No vertex leaves a crease. New
   /// vertices may split its edges. A thin triangle that two such edges fold out of the surface has none.

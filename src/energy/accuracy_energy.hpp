@@ -114,8 +114,8 @@ struct AccuracyTotal {
 [[nodiscard]] AccuracyTotal accuracy_total(const Mesh& mesh, const AccuracyDomain& domain, const AccuracyModel& model,
                                            const Engine& engine = nullptr, bool with_energy = true);
 
-/// The derivatives of energy + barrier by each vertex: in x, y and w, on the sphere in its chart. Those of a vertex are
-/// 0 if a triangle of its star, or across its link, has no floor. Precondition: energy + barrier is finite. O(n).
+/// The derivatives of energy + barrier by each vertex: in x, y and w, on the sphere in its chart. A vertex has 0 if a
+/// triangle of its star, or across its link, has no floor. Precondition: energy + barrier is finite. O(n).
 [[nodiscard]] IdVector<VertexId, WeightedPoint> accuracy_gradient(const Mesh& mesh, const AccuracyDomain& domain,
                                                                   const AccuracyModel& model, Executor* executor);
 

@@ -41,7 +41,7 @@ struct AccuracyTriangle {
   LengthBarrier<T> link_lengths;
   T crossing_room;  ///< (d_ij/ℓ − ε)(d_ji/ℓ − ε) of the link edge
   T inverse_area;   ///< from here on: with the center where it was asked about last
-  T room;           ///< of which its barrier has the logarithm; −1 if a triangle is not above its floor
+  T room;           ///< its barrier is −½ m ln(room); −1 if a triangle is not above its floor
 };
 
 /// A star in views of the storage of all its spokes and triangles.
@@ -166,7 +166,7 @@ template <class In>
   }
   star.spokes[0].right = select(star.open, zero, last_right);
   star.spokes[star.most].left = zero;
-  // A logarithm is a long chain of operations. In a loop of their own those of several triangles run at once.
+  // A logarithm is a long chain of operations. In a separate loop the processor computes several of them at once.
   for (std::size_t i = 0; i < star.most; ++i) {
     sum = sum + select(star.has_triangle(i), triangle_value(star, i), zero);
   }

@@ -78,7 +78,7 @@ struct TrialResult {
   std::vector<TraceEvent> events;  ///< if requested; in local numbers, new vertices last
 };
 
-/// What try_edit() may save, and what it must record.
+/// The manner of a trial.
 struct TrialOptions {
   bool with_events = false;  ///< Record what it does
   Pace pace = Pace::thorough;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/loops.hpp"
 #include "energy/whole_mesh.hpp"
 #include "optimize/flips/guard.hpp"
 #include "optimize/run/judge.hpp"

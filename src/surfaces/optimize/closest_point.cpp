@@ -28,12 +28,12 @@ std::vector<ClosestPoints::Triangle> triangles_of(const SurfaceMesh& mesh) {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A bound may be this part above the largest distance.
 constexpr double kPart = 1e-3;
-// The most cuts of a triangle. Of four million triangles of a public surface, 12 need more than 128.
+// The most cuts of a triangle. On a public surface 12 of four million triangles need more than 128.
 constexpr int kMostCuts = 200;
 // A lower bound of a distance is taken to be smaller by this factor, for its rounding.
 constexpr double kSafe = 1 - 1e-9;
-// Parts of the bound: how far beyond the sides of a triangle cuts are, the least that they cut off, and the longest
-// side of a piece that is not halved.
+// Lengths as parts of the bound. Cuts are kBeyond outside of the sides of a triangle, and cut off at least kThinCut. A
+// piece whose sides are shorter than kShort is not halved.
 constexpr double kBeyond = 0.5, kThinCut = 0.1, kShort = 1e-4;
 
 /// A convex polygon, or a segment.
@@ -55,7 +55,7 @@ Piece part_of(const Piece& piece, const Over& over, bool is_above) {
   return part;
 }
 
-/// Bounds one piece after another.
+/// Bounds the distance of a piece, which it cuts as often as needed. For one piece.
 class PieceBounds {
  public:
   PieceBounds(std::vector<const Target*> near, double enough, double allowed)
@@ -176,6 +176,7 @@ Target::Target(const std::array<Vec3, 3>& triangle) : corners(triangle) {
 }
 
 double Target::squared_distance(Vec3 p, double most) const {
+  if (p == corners[0] || p == corners[1] || p == corners[2]) return 0;  // without rounding
   const double height = dot(normal, p - corners[0]);
   double farthest = 0, least = kInfinity;
   for (std::size_t k = 0; k < 3; ++k) farthest = std::max(farthest, beyond(k, p));

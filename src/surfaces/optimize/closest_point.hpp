@@ -26,15 +26,15 @@ struct DistanceBound {
 
 /// A triangle or a segment, and planes across it: through its sides, or through its ends. Their normals face away.
 struct Target {
-  std::array<Vec3, 3> corners;  ///< Of a segment the third one is the first
-  Vec3 normal;                  ///< Of length 1; zero for a segment, and for a triangle whose area is rounding
+  std::array<Vec3, 3> corners;  ///< A segment has its first corner as the third, too
+  Vec3 normal;                  ///< Unit normal; zero for a segment, and for a triangle whose area is rounding
   std::array<Vec3, 3> away;     ///< Unit normal of the plane through corners k and k + 1, or corner k + 1
 
   explicit Target(const std::array<Vec3, 3>& triangle);
   [[nodiscard]] bool is_segment() const { return corners[2] == corners[0]; }
-  /// How far p is beyond plane k.
+  /// The distance of p from plane k: positive beyond it.
   [[nodiscard]] double beyond(std::size_t k, Vec3 p) const { return dot(away[k], p - corners[(k + 1) % 3]); }
-  /// The square of the distance of p, or infinity, if it is larger than another one.
+  /// The squared distance of p, or infinity if it is more than `most`.
   [[nodiscard]] double squared_distance(Vec3 p, double most) const;
 };
 
@@ -49,11 +49,11 @@ class ClosestPoints {
   explicit ClosestPoints(const SurfaceMesh& mesh);
 
   [[nodiscard]] const std::vector<Target>& targets() const { return targets_; }
-  /// Of equally close points always the same. O(log n) for points near the surface.
+  /// If several points are equally close, returns the same one each time. O(log n) for points near the surface.
   [[nodiscard]] ClosestPoint find(Vec3 p) const;
 
-  /// A bound of the distances of all points of a triangle: at least `enough`, usually a thousandth above the largest of
-  /// it and them, and infinity if it is more than `allowed`.
+  /// Returns an upper bound of the distances of all points of a triangle, at least `enough`. It is infinity if it would
+  /// be more than `allowed`. Usually it is at most 0.1 % above the larger of `enough` and the largest distance.
   ///
   /// The distance from a triangle T of the surface is a convex function. So no point of a piece is farther from T than
   /// its farthest corner is. Pieces are cut until one T is near enough to all of each.

@@ -33,8 +33,8 @@ class Lines {
   [[nodiscard]] Vec3 closest(Track line, Vec3 p) const { return at(line).segments.find(p).at; }
   /// The direction of a line at its point that is closest to p: of length 1, and continuous along the line.
   [[nodiscard]] Vec3 direction(Track line, Vec3 p) const;
-  /// The vertices of edges of a mesh that are too far from their lines, or nearest to places of lines that are too far.
-  /// `tracks` are those of the mesh.
+  /// The vertices of edges that are too far from their line. If a place of a line is too far from the mesh, also the
+  /// ends of the edge that is closest to this place. `tracks`: of the mesh.
   [[nodiscard]] std::vector<VertexId> too_far(const SurfaceMesh& mesh, const IdVector<VertexId, Track>& tracks,
                                               double most) const;
 

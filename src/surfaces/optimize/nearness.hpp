@@ -22,13 +22,13 @@ class Nearness {
   [[nodiscard]] bool is_near(const std::array<Vec3, 3>& triangle) const {
     return closest_.bound(triangle, most_, most_).most <= most_;
   }
-  /// What is known of a mesh with the same numbers of triangles: those that are near the input with these corners, and
-  /// the triangles of the input that are near them.
+  /// The results of the last look, for a mesh with the same numbers of triangles: their corners then, whether they were
+  /// near the input, and whether the triangles of the input were near the mesh.
   struct Known {
     std::vector<ClosestPoints::Triangle> triangles;
     std::vector<std::uint8_t> is_near, is_input_near;
   };
-  /// What is known if near triangles have come in the place of some of a mesh that was near everywhere.
+  /// The results after an edit, if the mesh was near before it and the new triangles are near.
   [[nodiscard]] Known after_edit(const SurfaceMesh& before, const std::vector<TriangleId>& replaced,
                                  const SurfaceMesh& after) const;
   /// The vertices of triangles that are too far from the input, or nearest to places of the input that are too far.
