@@ -12,10 +12,14 @@ namespace temper {
 struct ExactRange {
   double low, high;
   [[nodiscard]] bool allows(double x) const { return x == 0 || (std::abs(x) >= low && std::abs(x) <= high); }
-  [[nodiscard]] ExactRange squared() const { return {low * low, high * high}; }
+  [[nodiscard]] double without_tiny(double x) const { return std::abs(x) < low ? 0 : x; }
+  [[nodiscard]] constexpr ExactRange squared() const { return {low * low, high * high}; }
   [[nodiscard]] std::string text() const {
     return "expected 0 or a magnitude from " + to_text(low) + " to " + to_text(high) + ", which exact arithmetic needs";
   }
 };
+
+/// Of surfaces.
+inline constexpr ExactRange kCoordinatesInSpace = {1e-60, 1e60};
 
 }  // namespace temper

@@ -1,5 +1,6 @@
 #include "optimize/result/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -209,9 +210,10 @@ bool returns_input(const Rivals& rivals, const InputMesh& input, const Settings&
 
 /// Steps can leave weights of 1e-300, which mean nothing and which files refuse.
 void drop_tiny_weights(Mesh& mesh) {
-  constexpr double kTiny = 1e-100;
+  constexpr double kTiny = 1e-100, kRefused = 1e-120;
+  const double scale = WorkingUnits::of(mesh).scale, least = std::max(kRefused, kTiny * scale * scale);
   for (const VertexId v : mesh.vertices()) {
-    if (std::abs(mesh.weight(v)) < kTiny && mesh.weight(v) != 0) mesh.set_weight(v, 0);
+    if (std::abs(mesh.weight(v)) < least && mesh.weight(v) != 0) mesh.set_weight(v, 0);
   }
 }
 

@@ -17,8 +17,7 @@
 namespace temper::surfaces {
 namespace {
 
-// As in the plane (mesh/input_check.cpp).
-constexpr ExactRange kCoordinates = {1e-60, 1e60}, kWeights = {1e-120, 1e120};
+constexpr ExactRange kCoordinates = kCoordinatesInSpace, kWeights = kCoordinates.squared();
 
 using Sides = std::vector<EdgeBuckets::Side>;
 

@@ -106,11 +106,12 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
   const auto begin = std::chrono::steady_clock::now();
   report.before = quality(mesh);
   report.diagonal = diagonal_of(mesh);
-  const Nearness nearness(mesh, options.surface_distance * report.diagonal);
-  Run run{options, nearness, solver, report};
+  const double unit = std::exp2(std::ilogb(report.diagonal));
+  State input = with_creases(scaled(mesh, 1 / unit), options.crease_angle_deg);
+  const Nearness nearness(input.mesh, options.surface_distance * report.diagonal / unit);
+  Run run{options, nearness, solver, report, unit};
   run.start = options.started.value_or(begin);
 
-  State input = with_creases(mesh, options.crease_angle_deg);
   input.bad = run.bad(mesh);
   report.crease_edges = input.creases.size();
   const Lines lines(input.mesh, input.creases, options.may_slide);
@@ -119,23 +120,23 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
 
   report.objective = Objective::energy;
   report.bad_before = violations(report.before, Criterion::well_centered);
-  report.objective_before = energy_of(mesh, kLastGamma);
+  report.objective_before = energy_of(input.mesh, kLastGamma);
   run.record({.energy = report.objective_before, .bad = input.bad, .length_parameter = kLastGamma});
   State weighted = input;
   run.find_weights(weighted);
   const double sharp = options.crease_angle_deg;
-  const Turns turns = turns_of(mesh, sharp);
+  const Turns turns = turns_of(input.mesh, sharp);
   const TurnLimit first = {sharp, sharp, std::max(sharp, turns.largest_deg)};
   const State best = run.best_of_tracks(input, weighted, first);
   report.turns_before = report.turns_after = turns;
   report.after = report.before;
   report.objective_after = report.objective_before;
   if (best.bad < input.bad) {
-    mesh = without_creases(best);
+    mesh = run.result(best);
     report.after = quality(mesh);
-    report.turns_after = turns_of(mesh, sharp);
-    report.surface_distance = nearness.distance(mesh);
-    report.objective_after = energy_of(mesh, kLastGamma);
+    report.turns_after = turns_of(best.mesh, sharp);
+    report.surface_distance = unit * nearness.distance(best.mesh);
+    report.objective_after = energy_of(best.mesh, kLastGamma);
   }
   report.violations_before = violations(report.before, options.criterion);
   report.violations_after = violations(report.after, options.criterion);

@@ -6,6 +6,7 @@
 
 #include "base/sort_unique.hpp"
 #include "feasibility/demand.hpp"
+#include "mesh/exact_range.hpp"
 #include "surfaces/mesh/surface_editor.hpp"
 #include "surfaces/optimize/flips.hpp"
 
@@ -78,16 +79,31 @@ std::size_t n_below(const SurfaceMesh& mesh, double margin) {
 
 }  // namespace
 
-SurfaceMesh without_creases(const State& state) {
-  SurfaceMesh mesh = state.mesh;
-  Mesh& connectivity = SurfaceEditor(mesh).connectivity();
-  for (const auto& [a, b] : state.creases) connectivity.set_constrained(connectivity.find_halfedge(a, b), false);
+SurfaceMesh scaled(SurfaceMesh mesh, double factor) {
+  for (const VertexId v : mesh.vertices()) {
+    mesh.set_position(v, factor * mesh.position(v));
+    mesh.set_weight(v, factor * factor * mesh.weight(v));
+  }
   return mesh;
 }
 
 double energy_of(const SurfaceMesh& mesh, double gamma) {
   Draft draft = weights_of(mesh);
   return DraftEnergy(draft, gamma).value().lowered;
+}
+
+SurfaceMesh Run::result(const State& state) const {
+  SurfaceMesh mesh = scaled(state.mesh, unit);
+  Mesh& connectivity = SurfaceEditor(mesh).connectivity();
+  for (const auto& [a, b] : state.creases) connectivity.set_constrained(connectivity.find_halfedge(a, b), false);
+  // Rounding can leave numbers so small that files refuse them.
+  constexpr ExactRange kRange = kCoordinatesInSpace;
+  for (const VertexId v : mesh.vertices()) {
+    const Vec3 p = mesh.position(v);
+    mesh.set_position(v, {kRange.without_tiny(p.x), kRange.without_tiny(p.y), kRange.without_tiny(p.z)});
+    mesh.set_weight(v, kRange.squared().without_tiny(mesh.weight(v)));
+  }
+  return mesh;
 }
 
 double Run::seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
@@ -121,7 +137,7 @@ void Run::offer(const State& found) {
   if (!options.best_so_far) return;
   if (!shown || found.bad <= shown->bad) shown = found;
   options.best_so_far([this](const std::function<void(const BestSoFar&)>& use) {
-    use({without_creases(*shown), shown->repairs > 0 ? shown->origins : IdVector<VertexId, VertexId>()});
+    use({result(*shown), shown->repairs > 0 ? shown->origins : IdVector<VertexId, VertexId>()});
   });
 }
 

@@ -1,4 +1,4 @@
-// The steps of a run. Lengths are in the user's units.
+// The steps of a run. Lengths are in units of the run, so that no product of lengths overflows or becomes 0.
 //
 //   rounds    descend, project, take back what is too far, flip; γ falls from round to round
 //   weights   a linear program for all weights
@@ -37,8 +37,8 @@ struct State {
 
 [[nodiscard]] Turns turns_of(const SurfaceMesh& mesh, double sharp_deg);
 
-/// The mesh of a state as the user has it: creases are not constrained.
-[[nodiscard]] SurfaceMesh without_creases(const State& state);
+/// A mesh in another unit of length.
+[[nodiscard]] SurfaceMesh scaled(SurfaceMesh mesh, double factor);
 
 inline constexpr double kLastGamma = 0.01;  // of all rounds
 /// The energy of a mesh.
@@ -49,11 +49,14 @@ struct Run {
   const Nearness& nearness;
   LpSolver& solver;
   SurfaceReport& report;
+  double unit = 1;  ///< The user's length of one unit, a power of two
   TurnLimit limit = {};
   std::size_t trials = 0;           ///< Number of edits since the last one that helped
   std::optional<State> shown = {};  ///< For the listener, if there is one
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
+  /// The mesh of a state as the user has it: in the user's units, and creases are not constrained.
+  [[nodiscard]] SurfaceMesh result(const State& state) const;
   /// Asks the clock and the caller. Once the answer is yes, it stays, and the report has the reason.
   [[nodiscard]] bool must_stop() const;
   /// Puts a mesh into the history, and shows the progress.

@@ -126,17 +126,19 @@ TEST(Optimize, GivesTheSameBytesTwiceAndForAnyExecutor) {
 
 TEST(Optimize, CommutesWithScalingByPowersOfTwo) {
   const LatticeOptions unit{.n = 8, .jitter = 0.3, .weight = 0};
-  LatticeOptions scaled = unit;
-  scaled.scale = 0x1p20;
-  for (const EnergyInfo& info : energies()) {
-    if (info.is_hard()) continue;  // the lattice is outside its barrier
-    Mesh a = lattice(unit), b = lattice(scaled);
-    ASSERT_TRUE(optimize(a, {.energy = info.kind, .max_sweeps = 10}));
-    ASSERT_TRUE(optimize(b, {.energy = info.kind, .max_sweeps = 10}));
-    for (const VertexId v : a.vertices()) {
-      EXPECT_EQ(scaled.scale * a.position(v).x, b.position(v).x) << info.name;
-      EXPECT_EQ(scaled.scale * a.position(v).y, b.position(v).y) << info.name;
-      EXPECT_EQ(scaled.scale * scaled.scale * a.weight(v), b.weight(v)) << info.name;
+  for (const double scale : {0x1p20, 0x1p-180}) {
+    LatticeOptions scaled = unit;
+    scaled.scale = scale;
+    for (const EnergyInfo& info : energies()) {
+      if (info.is_hard()) continue;  // the lattice is outside its barrier
+      Mesh a = lattice(unit), b = lattice(scaled);
+      ASSERT_TRUE(optimize(a, {.energy = info.kind, .max_sweeps = 10}));
+      ASSERT_TRUE(optimize(b, {.energy = info.kind, .max_sweeps = 10}));
+      for (const VertexId v : a.vertices()) {
+        EXPECT_EQ(scale * a.position(v).x, b.position(v).x) << info.name;
+        EXPECT_EQ(scale * a.position(v).y, b.position(v).y) << info.name;
+        EXPECT_EQ(scale * scale * a.weight(v), b.weight(v)) << info.name;
+      }
     }
   }
 }

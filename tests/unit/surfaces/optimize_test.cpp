@@ -379,15 +379,70 @@ TEST(SurfaceOptimize, ToriBecomeWellCenteredNearTheInput) {
   }
 }
 
+/// The surface of a box of cubes, n along each axis. Points inside of its faces are shaken, and points inside of its
+/// edges along them.
+test::SurfaceArrays shaken_box(std::array<int, 3> n, double shake, std::uint64_t seed, double along = 0) {
+  Rng rng(seed);
+  test::SurfaceArrays arrays;
+  std::map<std::array<int, 3>, std::int32_t> numbers;
+  const auto point = [&](std::array<int, 3> at) {
+    const auto [found, is_new] = numbers.try_emplace(at, static_cast<std::int32_t>(arrays.points.size()));
+    if (is_new) {
+      std::array<double, 3> x;
+      const auto is_outer = [&](std::size_t k) { return at[k] == 0 || at[k] == n[k]; };
+      const double most = is_outer(0) + is_outer(1) + is_outer(2) == 1 ? shake : along;
+      for (std::size_t k = 0; k < 3; ++k) x[k] = at[k] + (is_outer(k) || most == 0 ? 0 : rng.uniform(-most, most));
+      arrays.points.push_back({x[0], x[1], x[2]});
+    }
+    return found->second;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const int side : {0, n[axis]}) {
+      for (int i = 0; i < n[(axis + 1) % 3]; ++i) {
+        for (int j = 0; j < n[(axis + 2) % 3]; ++j) {
+          const auto corner = [&](int u, int v) {
+            std::array<int, 3> at = {};
+            at[axis] = side, at[(axis + 1) % 3] = i + u, at[(axis + 2) % 3] = j + v;
+            return point(at);
+          };
+          const std::int32_t a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
+          arrays.triangles.insert(arrays.triangles.end(), {{a, b, c}, {a, c, d}});
+        }
+      }
+    }
+  }
+  return arrays;
+}
+
 TEST(SurfaceOptimize, AnotherUnitOfLengthChangesNothingElse) {
-  SurfaceMesh one = shaken_torus(0.3, 5), other = shaken_torus(0.3, 5, 8);
-  SurfaceOptions options;
-  options.surface_distance = 0.02;
-  const SurfaceReport a = optimized(one, options), b = optimized(other, options);
-  EXPECT_EQ(a.violations_after, b.violations_after);
-  EXPECT_EQ(a.flips, b.flips);
-  ASSERT_EQ(one.n_vertices(), other.n_vertices());
-  for (const VertexId v : one.vertices()) ASSERT_EQ(8.0 * one.position(v), other.position(v));
+  test::SurfaceArrays box = shaken_box({3, 3, 3}, 0.3, 3);
+  for (const double unit : {8.0, 0x1p-140, 0x1p140}) {
+    test::SurfaceArrays scaled = box;
+    for (Vec3& p : scaled.points) p = unit * p;
+    SurfaceMesh one = test::mesh_of(box), other = test::mesh_of(scaled);
+    std::size_t shown = 0;
+    SurfaceOptions options;
+    options.surface_distance = 0.02;
+    const SurfaceReport a = optimized(one, options);
+    options.best_so_far = [&](const auto& get) {
+      get([&](const BestSoFar& best) {
+        for (const VertexId v : best.mesh.vertices()) shown += length((1 / unit) * best.mesh.position(v)) < 6 ? 1 : 0;
+      });
+    };
+    const SurfaceReport b = optimized(other, options);
+    EXPECT_GT(shown, box.points.size());
+    EXPECT_EQ(a.crease_edges, 36U);
+    EXPECT_LT(a.violations_after, a.violations_before);
+    EXPECT_EQ(unit * a.surface_distance, b.surface_distance);
+    EXPECT_EQ(a.turns_after.largest_deg, b.turns_after.largest_deg);
+    EXPECT_EQ(a.history.size(), b.history.size());
+    EXPECT_EQ(a.violations_after, b.violations_after);
+    ASSERT_EQ(one.n_vertices(), other.n_vertices());
+    for (const VertexId v : one.vertices()) {
+      ASSERT_EQ(unit * one.position(v), other.position(v));
+      ASSERT_EQ(unit * unit * one.weight(v), other.weight(v));
+    }
+  }
 }
 
 /// The turns at all edges that have two triangles.
@@ -543,41 +598,6 @@ TEST(SurfacePatch, EditsKeepTheSurfaceAndItsFlags) {
   EXPECT_EQ(made_cuts, 1U);
   EXPECT_EQ(made[Edit::Kind::none], 3);
   for (const Edit::Kind kind : {Edit::Kind::flip, Edit::Kind::split, Edit::Kind::collapse}) EXPECT_GT(made[kind], 5);
-}
-
-/// The surface of a box of cubes, n along each axis. Points inside of its faces are shaken, and points inside of its
-/// edges along them.
-test::SurfaceArrays shaken_box(std::array<int, 3> n, double shake, std::uint64_t seed, double along = 0) {
-  Rng rng(seed);
-  test::SurfaceArrays arrays;
-  std::map<std::array<int, 3>, std::int32_t> numbers;
-  const auto point = [&](std::array<int, 3> at) {
-    const auto [found, is_new] = numbers.try_emplace(at, static_cast<std::int32_t>(arrays.points.size()));
-    if (is_new) {
-      std::array<double, 3> x;
-      const auto is_outer = [&](std::size_t k) { return at[k] == 0 || at[k] == n[k]; };
-      const double most = is_outer(0) + is_outer(1) + is_outer(2) == 1 ? shake : along;
-      for (std::size_t k = 0; k < 3; ++k) x[k] = at[k] + (is_outer(k) || most == 0 ? 0 : rng.uniform(-most, most));
-      arrays.points.push_back({x[0], x[1], x[2]});
-    }
-    return found->second;
-  };
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const int side : {0, n[axis]}) {
-      for (int i = 0; i < n[(axis + 1) % 3]; ++i) {
-        for (int j = 0; j < n[(axis + 2) % 3]; ++j) {
-          const auto corner = [&](int u, int v) {
-            std::array<int, 3> at = {};
-            at[axis] = side, at[(axis + 1) % 3] = i + u, at[(axis + 2) % 3] = j + v;
-            return point(at);
-          };
-          const std::int32_t a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
-          arrays.triangles.insert(arrays.triangles.end(), {{a, b, c}, {a, c, d}});
-        }
-      }
-    }
-  }
-  return arrays;
 }
 
 TEST(SurfaceOptimize, CreasesStay) {
