@@ -38,6 +38,13 @@ class Dyadic {
     if (digits_.empty()) return Sign::zero;
     return negative_ ? Sign::negative : Sign::positive;
   }
+  /// Within one unit in the last place, if that is a normal number.
+  [[nodiscard]] double approximation() const {
+    const std::size_t n = digits_.size();
+    const auto digit = [&](std::size_t i) { return std::uint64_t{i <= n ? digits_[n - i] : 0U}; };  // 1 is the highest
+    const double size = std::ldexp(static_cast<double>(digit(1)), 64) + static_cast<double>(digit(2) << 32 | digit(3));
+    return std::ldexp(negative_ ? -size : size, 32 * (place_ + static_cast<int>(n) - 3));
+  }
 
   friend Dyadic operator-(Dyadic a) {
     a.negative_ = !a.negative_;

@@ -1,7 +1,7 @@
 // Centers, heights and duals in doubles.
 #include <cmath>
 
-#include "feasibility/exact_number.hpp"
+#include "geometry/dyadic.hpp"
 #include "regularity/duals.hpp"
 #include "surfaces/geometry/formulas.hpp"
 #include "temper/surfaces.hpp"
@@ -50,20 +50,20 @@ double dual_over_length(const WeightedPoint& p, const WeightedPoint& q, const We
     const auto area = [&](const WeightedPoint& v) {
       return squared_length(cross(b.position() - a.position(), v.position() - a.position()));
     };
-    const double squares = difference_of_squares<exact::Number>(a, b, c, d).approximation() / area(c) / area(d);
+    const double squares = difference_of_squares<exact::Dyadic>(a, b, c, d).approximation() / area(c) / area(d);
     sum = squares * unit * unit / ((std::abs(left) + std::abs(right)) / unit / unit);
   }
   return with_sign(0.5 * sum / l2, dual_length_sign(p, q, r, s));
 }
 
 double doubled_area(const MetricTriangle& t) {
-  return 0.5 * std::sqrt(squared_doubled_area<exact::Number>(t).approximation());
+  return 0.5 * std::sqrt(squared_doubled_area<exact::Dyadic>(t).approximation());
 }
 
 double dual_crossing(const MetricTriangle& t) { return 0.5 * (t.pq + t.wp - t.wq) / std::sqrt(t.pq); }
 
 double signed_height(const MetricTriangle& t) {
-  return 0.125 * height_numerator<exact::Number>(t).approximation() / (std::sqrt(t.pq) * doubled_area(t));
+  return 0.125 * height_numerator<exact::Dyadic>(t).approximation() / (std::sqrt(t.pq) * doubled_area(t));
 }
 
 double dual_over_length(const MetricTriangle& left, const MetricTriangle& right) {

@@ -23,6 +23,19 @@ TEST(Dyadic, IsTheDouble) {
   }
 }
 
+TEST(Dyadic, TheApproximationIsTheDoubleOrTheNearestToASum) {
+  Random random(3);
+  EXPECT_EQ(Dyadic().approximation(), 0);
+  for (int round = 0; round < 2000; ++round) {
+    const double x = std::ldexp(testing::real(random), testing::integer(random, 400));
+    const double y = std::ldexp(testing::real(random), testing::integer(random, 400));
+    EXPECT_EQ(Dyadic(x).approximation(), x);
+    for (const auto& [found, rounded] : {std::pair((Dyadic(x) + Dyadic(y)).approximation(), x + y),
+                                         std::pair((Dyadic(x) * Dyadic(y)).approximation(), x * y)})
+      EXPECT_LE(std::abs(found - rounded), 0x1p-52 * std::abs(rounded)) << x << ' ' << y;
+  }
+}
+
 TEST(Dyadic, CountsLikeIntegers) {
   Random random(1);
   for (int round = 0; round < 2000; ++round) {

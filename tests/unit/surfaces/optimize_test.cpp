@@ -837,6 +837,20 @@ TEST(SurfaceOptimize, AThinTriangleThatIsFoldedOverIsNoCrease) {
   EXPECT_EQ(report.violations_after, 0U);
 }
 
+TEST(SurfaceOptimize, ATriangleWhoseAreaIsRoundingCostsNoTime) {
+  // Its height is 1e-17. Exact numbers as sums of doubles grew there until one dual took a second.
+  test::SurfaceArrays arrays;
+  for (const double y : {0.0, 1.0, 2.0}) {
+    for (const double x : {0.0, 1.0, 2.0}) arrays.points.push_back({x, y, x + y == 4 ? 0.4 : 0});
+  }
+  arrays.points[1].y = 0.08;
+  arrays.points.push_back({0.3, 0.024, 0});
+  arrays.triangles = {{0, 1, 9}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {3, 4, 7},
+                      {3, 7, 6}, {4, 5, 8}, {4, 8, 7}, {1, 4, 9}, {4, 0, 9}};
+  SurfaceMesh mesh = test::mesh_of(arrays);
+  EXPECT_LT(optimized(mesh).seconds, 10);
+}
+
 TEST(SurfaceOptimize, TargetsOfDualsHaveTheCoefficientsOfWellCenteredMeshes) {
   for (const Criterion criterion : {Criterion::coefficients, Criterion::distances}) {
     SurfaceMesh all = shaken_torus(0.3, 1), one = all;
