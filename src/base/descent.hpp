@@ -74,6 +74,7 @@ Descent::Outcome Descent::take_step(Function& f, Value& now, Executor* executor,
   Vector step = direction(now.gradient);
   shorten(f, step, executor);
   const double slope = dot(now.gradient, step);
+  if (!std::isfinite(slope)) step.assign(step.size(), 0);  // else all points become NaN; so they stay
   double t = 1;
   for (int i = 0; i < kMostHalvings && slope < 0; ++i, t *= 0.5) {
     if (must_stop()) {

@@ -104,6 +104,12 @@ TEST(Descent, LeavesPointsWhereTheyWereIfNoStepIsTaken) {
   EXPECT_EQ(descent.take_step(chain, now, nullptr, [] { return false; }), Descent::Outcome::none);
   EXPECT_TRUE(descent.knows_nothing());
   EXPECT_EQ(chain.at, x);
+  chain.limit = std::numeric_limits<double>::infinity();
+  for (const double slope : {chain.limit, -chain.limit, std::nan("")}) {
+    now.gradient[1] = slope;
+    EXPECT_EQ(descent.take_step(chain, now, nullptr, [] { return false; }), Descent::Outcome::stuck);
+    EXPECT_EQ(chain.at, x);
+  }
 }
 
 TEST(LogObjective, HasTheDerivativesOfItsValue) {

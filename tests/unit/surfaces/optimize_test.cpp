@@ -849,6 +849,7 @@ TEST(SurfaceOptimize, ATriangleWhoseAreaIsRoundingCostsNoTime) {
                       {3, 7, 6}, {4, 5, 8}, {4, 8, 7}, {1, 4, 9}, {4, 0, 9}};
   SurfaceMesh mesh = test::mesh_of(arrays);
   EXPECT_LT(optimized(mesh).seconds, 10);
+  for (const VertexId v : mesh.vertices()) EXPECT_TRUE(std::isfinite(mesh.weight(v)));
 }
 
 TEST(SurfaceOptimize, TargetsOfDualsHaveTheCoefficientsOfWellCenteredMeshes) {
