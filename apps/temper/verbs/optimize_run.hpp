@@ -1,6 +1,9 @@
 // The parts of `temper optimize` that differ between kinds of cells. cmd_optimize.cpp has the sequence.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,28 +42,27 @@ void warn(RunResults<Subject>& results, std::span<const std::string> warnings) {
   results.warnings.insert(results.warnings.end(), warnings.begin(), warnings.end());
 }
 
-/// The errors of solvers before and after a run, for --measure-errors.
+/// Adds the errors of solvers before and after a run, for --measure-errors. An interrupt or a time limit that ended the
+/// run leaves no time for them.
 template <class Subject>
-class MeasuredErrors {
- public:
+void add_errors([[maybe_unused]] const OptimizeSettings& s, [[maybe_unused]] const typename Subject::Mesh& before,
+                [[maybe_unused]] const typename Subject::Mesh& after, [[maybe_unused]] Executor* threads,
+                [[maybe_unused]] RunResults<Subject>& results) {
 #ifdef TEMPER_WITH_ERRORS
-  void begin(const OptimizeSettings& s, const typename Subject::Mesh& mesh, Executor* executor) {
-    if (s.measure_errors) errors_.emplace(mesh, executor);
+  if (!s.measure_errors) return;
+  std::optional<SolverErrors<Subject>> errors;
+  const bool is_early = stopped_early(results.report.stopped);
+  if (!is_early && !interrupted()) errors.emplace(before, threads);
+  if (is_early || interrupted()) {
+    const std::string text =
+        "--measure-errors: a time limit or a signal ended the run, so nothing was measured. Next: ";
+    return warn(results, std::vector{text + fmt::format("temper errors {} --against {}", s.output.path, s.input)});
   }
-  void end(const typename Subject::Mesh& mesh, RunResults<Subject>& results) {
-    if (!errors_) return;
-    errors_->measure_result(mesh);
-    results.errors_text = errors_->text(text_style());
-    results.errors_json = errors_->json();
-  }
-
- private:
-  std::optional<SolverErrors<Subject>> errors_;
-#else
-  void begin(const OptimizeSettings&, const typename Subject::Mesh&, Executor*) {}
-  void end(const typename Subject::Mesh&, RunResults<Subject>&) {}
+  errors->measure_result(after);
+  results.errors_text = errors->text(text_style());
+  results.errors_json = errors->json();
 #endif
-};
+}
 
 struct TraceFile {
   io::TextStream stream;

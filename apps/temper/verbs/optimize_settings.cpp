@@ -109,8 +109,10 @@ void add_rare(Command& command, OptimizeSettings& s) {
       "file. Options of the command line override it.");
   command.add_flag("--details", s.details, "Print all measures, energies, sizes and notes.");
 #ifdef TEMPER_WITH_ERRORS
-  command.add_flag("--measure-errors", s.measure_errors,
-                   "Measure the errors of solvers before and after, as temper errors does, and print them.");
+  command.add_flag(
+      "--measure-errors", s.measure_errors,
+      "Measure the errors of solvers before and after, as temper errors does, and print them. This follows the run and "
+      "is not part of its time. A run that --time-limit or a signal ends is not measured.");
 #endif
   add_projection(command, s.projection);
   add_heights(command, s.heights);

@@ -30,14 +30,12 @@ void improve(const OptimizeSettings& s, SurfaceInput& input, const RunFiles& fil
   results.second = input.mesh();
   results.improved = &results.second;
   results.original = &input.mesh();
-  MeasuredErrors<Surfaces> errors;
-  errors.begin(s, input.mesh(), files.threads);
   Expected<surfaces::SurfaceReport> report = optimize(results.second, *clp_solver(), *options);
   if (!report) throw as_failure(spell_options(report.error()));
   results.report = *std::move(report);
   results.before = results.report.before;
   results.after = results.report.after;
-  errors.end(results.second, results);
+  add_errors(s, input.mesh(), results.second, files.threads, results);
   results.outcomes = judge(s.requirements, results.after, criterion_of_target(s.target));
 }
 

@@ -69,8 +69,6 @@ void improve(const OptimizeSettings& s, TetInput& input, const RunFiles& files, 
   const std::string size = s.tensor.given() ? mesh_size(input.mesh()) : mesh_size(results.before);
   print(fmt::format("{}: {}\n", s.input, size));
   flush_output();
-  MeasuredErrors<Tetrahedra> errors;
-  errors.begin(s, before.mesh(), files.threads);
   ProgressLine line(!is_quiet() && error_is_terminal(), Tetrahedra::elements);
   tets::OptimizeHooks hooks;
   set_hooks(hooks, line, s, input, files.threads);
@@ -87,7 +85,7 @@ void improve(const OptimizeSettings& s, TetInput& input, const RunFiles& files, 
   const Seen after(results.second, made.tetrahedra_tensors.empty() ? tensors : made.tetrahedra_tensors,
                    made.corner_weights, input);
   results.after = quality(after.mesh(), measuring);
-  errors.end(after.mesh(), results);
+  add_errors(s, before.mesh(), after.mesh(), files.threads, results);
   results.outcomes = judge(s.requirements, results.after, criterion_of_target(s.target));
   if (!s.files.picture.empty())
     results.picture = draw_before_after_svg(before.mesh(), after.mesh(), tets::middle_plane(before.mesh()));

@@ -130,7 +130,7 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
   warn_without(s.tensor, input);
   std::vector<Tensor> tensors = tensors_of(s.tensor, input);
   look_at(tensors, io::corner_weights_of(input.file, input.loaded));
-  if (!s.files.picture.empty() || !s.files.page.empty()) results.second = *seen;
+  if (s.measure_errors || !s.files.picture.empty() || !s.files.page.empty()) results.second = *seen;
   const bool shown = !s.files.report.empty() || !s.files.page.empty() || !s.files.picture.empty();
   measuring.brief = !shown && !s.details && s.requirements.empty();
   const bool measured = !is_quiet() || shown || !s.requirements.empty();  // else nobody would see it
@@ -151,13 +151,11 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
     flush_output();
   });
   const Tracer tracer = tracer_of(s, files, input);
-  MeasuredErrors<Triangles> errors;
-  on_first_rank([&] { errors.begin(s, *seen, files.threads); });
   results.report = run_library(s, input, mesh, files.threads, tracer, viewer, !measuring.brief);
   tensors.resize(std::min<std::size_t>(tensors.size(), 1));  // all have it if the report has none
   look_at(results.report.triangle_tensors.empty() ? tensors : results.report.triangle_tensors,
           results.report.corner_weights);
-  errors.end(*seen, results);
+  add_errors(s, results.second, *seen, files.threads, results);
   if (files.trace != nullptr) files.trace->stream.write(trace_end(files.trace->events, mesh, input));
   if (measured && !viewer) results.after = quality(*seen, measuring);
   const bool all_regular = measured && results.after.non_regular_edges == 0;  // those that may not be flipped, too

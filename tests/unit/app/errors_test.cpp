@@ -185,6 +185,18 @@ TEST_F(Errors, IsPartOfAnOptimizationWhenAskedFor) {
   EXPECT_FALSE(nlohmann::json::parse(read("r.json")).contains("errors"));
 }
 
+TEST_F(Errors, OfARunThatItsTimeLimitEndsAreNotMeasured) {
+  make_input();
+  const Outcome run =
+      temper({"optimize", "in.vtu", "-o", "out.vtu", "--time-limit", "1e-9", "--measure-errors", "--write", "r.json"});
+  EXPECT_EQ(run.exit, 4);
+  EXPECT_TRUE(contains(run.err, "nothing was measured. Next: temper errors out.vtu --against in.vtu")) << run.err;
+  EXPECT_FALSE(contains(run.out, "mean relative error"));
+  const auto report = nlohmann::json::parse(read("r.json"));
+  EXPECT_FALSE(report.contains("errors"));
+  EXPECT_EQ(report["warnings"].size(), 1u);
+}
+
 // On even rings the errors of the Poisson problem cancel, and any change makes them larger.
 TEST_F(Errors, OfAnOptimizationOnlyMeasures) {
   temper_ok({"example", "annulus", "--jitter", "0", "-o", "in.vtu"});
