@@ -193,8 +193,7 @@ FieldFrame field_frame(const SurfaceMesh& mesh) {
 
 Expected<ErrorReport> measure_errors(const SurfaceMesh& mesh, const MeasureErrorsOptions& options) {
   using namespace error_detail;
-  const auto fields = select_fields(options.fields, fields_of_space(),
-                                    "the fields of tetrahedra and curved surfaces are all, chosen, held-back, exact");
+  const auto fields = select_fields_of_space(options.fields);
   if (!fields) return fields.error();
   const FieldFrame frame = options.frame.value_or(field_frame(mesh));
   temper::MeasureErrorsOptions in_plane;

@@ -101,9 +101,8 @@ struct FieldSize {
 /// The fields that MeasureErrorsOptions::fields asks for, in the order of all_fields(), each once.
 [[nodiscard]] Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names,
                                                          SpaceKind space = SpaceKind::plane);
-/// Selects among other fields in the same way. `known` begins their list in errors.
-[[nodiscard]] Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names,
-                                                         std::span<const Field> all, std::string known);
+/// Selects among the fields of space in the same way.
+[[nodiscard]] Expected<std::vector<Field>> select_fields_of_space(const std::vector<std::string>& names);
 
 /// The waves and other fields of space, with their sizes over [−1, 1]³.
 [[nodiscard]] std::span<const Field> fields_of_space();

@@ -278,9 +278,7 @@ FieldFrame field_frame(const TetMesh& mesh) {
 }
 
 Expected<ErrorReport> measure_errors(const TetMesh& mesh, const MeasureErrorsOptions& options) {
-  const auto fields =
-      error_detail::select_fields(options.fields, error_detail::fields_of_space(),
-                                  "the fields of tetrahedra and curved surfaces are all, chosen, held-back, exact");
+  const auto fields = error_detail::select_fields_of_space(options.fields);
   if (!fields) return fields.error();
   if (mesh.n_tetrahedra() == 0) return InputError{ErrorCode::empty_input, "", "the mesh has no tetrahedra"};
   const FieldFrame frame = options.frame.value_or(field_frame(mesh));

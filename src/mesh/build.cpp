@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/boundary_sweep.hpp"
+#include "mesh/exact_range.hpp"
 #include "mesh/input_check.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "mesh/predicates.hpp"
@@ -19,8 +20,6 @@
 
 namespace temper {
 namespace {
-
-bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 using Sides = std::vector<EdgeBuckets::Side>;
 

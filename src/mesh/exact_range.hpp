@@ -5,8 +5,11 @@
 #include <string>
 
 #include "base/text.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
+
+[[nodiscard]] inline bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 /// The magnitudes that a number other than 0 may have.
 struct ExactRange {

@@ -107,9 +107,9 @@ void check_fields(const MeasureErrorsOptions& options) {
   const auto of_tetrahedra = tets::measure_errors({}, {.fields = options.fields});
   if (unknown(Space()) && unknown(Space::sphere(1)) && unknown(Space::periodic({1, 1})) &&
       of_tetrahedra.error().code == ErrorCode::invalid_option) {
-    const std::string& others = of_tetrahedra.error().message;
-    throw Failure(Exit::bad_usage, "--fields: " + report.error().message + others.substr(others.find(';')) +
-                                       "\nSee temper errors --help");
+    std::string others = "; those of tetrahedra and curved surfaces are all, chosen, held-back, exact";
+    for (const ErrorField& field : tets::error_fields()) others.append(", ").append(field.name);
+    throw Failure(Exit::bad_usage, "--fields: " + report.error().message + others + "\nSee temper errors --help");
   }
 }
 

@@ -89,7 +89,8 @@ void print_result(const OptimizeSettings& s, const RunResults<Subject>& results,
   if (!results.errors_text.empty()) print("\n" + results.errors_text + "\n");
   const auto& report = results.report;
   std::string end = ending(report.stopped) + work_done(report);
-  if (last_objective(report) == Objective::solver_error && std::isfinite(report.objective_before))
+  if (last_objective(report) == Objective::solver_error && std::isfinite(report.objective_before) &&
+      report.objective_before > 0)
     end += fmt::format("; solver error {:.3g} times the input's", report.objective_after / report.objective_before);
   if (const std::size_t notes = report.notes.size(); !s.details && notes > 0)
     end += fmt::format("; --details has {}", plural(notes, "note", "notes"));

@@ -16,6 +16,7 @@
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
+#include "mesh/exact_range.hpp"
 
 namespace temper::io {
 
@@ -138,7 +139,7 @@ void check_tetrahedra(Document& d) {
   check_ranges(d);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     const Vec3 p = d.place(i);
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    if (is_finite(p)) continue;
     fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has coordinates (", p.x, ", ", p.y, ", ",
          p.z, "), expected finite numbers. Next: give its place");
   }

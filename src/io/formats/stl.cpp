@@ -21,6 +21,7 @@
 #include "io/formats/format.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
+#include "mesh/exact_range.hpp"
 
 namespace temper::io {
 namespace {
@@ -39,15 +40,15 @@ bool is_word(std::string_view found, std::string_view word) { return lower_case(
 /// The number of triangles of binary STL, which may be cut short. Nothing if the bytes there are of a text.
 std::optional<std::uint32_t> n_of_binary(std::string_view beginning) {
   if (beginning.size() < kStlHeader) return std::nullopt;
-  const std::string_view count = beginning.substr(kStlTitle, 4);
-  const auto is_text = [](char c) { return (c >= '\t' && c <= '\r') || (c >= ' ' && c <= '~'); };
-  if (std::ranges::all_of(count, is_text)) return std::nullopt;
-  return little_endian(count);
+  // Titles of texts can have any letters.
+  const auto is_text = [](unsigned char c) { return (c >= '\t' && c <= '\r') || (c >= ' ' && c != 0x7f); };
+  if (std::ranges::all_of(beginning, is_text)) return std::nullopt;
+  return little_endian(beginning.substr(kStlTitle, 4));
 }
 
-bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 std::string fault_of(Vec3 p) {
-  return text("a corner has coordinates (", p.x, ", ", p.y, ", ", p.z, "), expected finite numbers");
+  return text("a corner has coordinates (", p.x, ", ", p.y, ", ", p.z,
+              "), expected finite numbers. Next: give its place");
 }
 
 class StlReader {

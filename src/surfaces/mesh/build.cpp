@@ -70,10 +70,9 @@ class SurfaceBuilder {
     for (std::size_t i = 0; i < input_.n_points(); ++i) {
       const Vec3 p = input_.place(i);
       const double w = input_.weight(i);
-      const bool is_finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
       const auto at = [&] { return names_.point(i) + " has coordinates " + input_.place_text(i); };
       const auto weight = [&] { return names_.point(i) + " has weight " + to_text(w); };
-      if (!is_finite) return input_.point_error(ErrorCode::not_finite, i, at() + ", expected finite numbers");
+      if (!is_finite(p)) return input_.point_error(ErrorCode::not_finite, i, at() + ", expected finite numbers");
       if (!kCoordinates.allows(p.x) || !kCoordinates.allows(p.y) || !kCoordinates.allows(p.z))
         return input_.point_error(ErrorCode::out_of_scale, i, at() + "; " + kCoordinates.text());
       if (!std::isfinite(w))

@@ -251,8 +251,10 @@ TEST_F(Errors, BadUsageIsRefusedAndNothingIsWritten) {
   const Outcome field = temper({"errors", "in.vtu", "--fields", "chosen,sine", "--edges", "edges.csv"});
   EXPECT_EQ(field.exit, 2);
   EXPECT_TRUE(contains(field.err, "--fields: no field 'sine'; the fields are all, chosen, held-back, exact, product"));
-  EXPECT_TRUE(
-      contains(field.err, "; the fields of tetrahedra and curved surfaces are all, chosen, held-back, exact, "));
+  EXPECT_TRUE(contains(field.err, "; those of tetrahedra and curved surfaces are all, chosen, held-back, exact, "));
+  const Outcome both = temper({"errors", "in.vtu", "--fields", "sine;cosine"});
+  EXPECT_TRUE(contains(both.err, "no field 'sine;cosine'; the fields are all")) << both.err;
+  EXPECT_EQ(std::count(both.err.begin(), both.err.end(), ';'), 3) << both.err;
   EXPECT_EQ(temper({"errors"}).exit, 2);
   EXPECT_EQ(temper({"errors", "in.vtu", "--fields", ""}).exit, 2);
   EXPECT_EQ(temper({"errors", "in.vtu", "--refine", "-1"}).exit, 2);

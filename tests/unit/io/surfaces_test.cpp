@@ -169,6 +169,9 @@ TEST_F(FilesOfSurfaces, TextAndBinaryStlGiveTheSameMesh) {
   EXPECT_EQ(error_of("cut.stl", text.substr(0, 2000)).substr(0, 11), "cut.stl:82:");
   EXPECT_EQ(error_of("cut.bin", binary.substr(0, 1000)).substr(0, 35), "cut.bin: is none of the formats tha");
   EXPECT_EQ(error_of("none.stl", std::string(84, '\0')), "none.stl: binary STL of 0 triangles, expected at least one");
+  EXPECT_EQ(error_of("cut.stl", "solid " + std::string(73, 'x') + "\xc3\xa4\xf6\xfc\n facit").substr(0, 34),
+            "cut.stl: expected 'facet' or 'ends")
+      << "letters of a title can be of any alphabet";
   std::string many = binary;
   many.replace(0, 5, "solid").replace(80, 4, "\xff\xff\xff\xff");
   EXPECT_EQ(
@@ -194,7 +197,7 @@ TEST_F(FilesOfSurfaces, BadFilesAreNamed) {
   EXPECT_EQ(error_of("m.stl", begin + "endloop\n"), "m.stl:6: expected 'vertex', found 'endloop'");
   EXPECT_EQ(error_of("m.stl", begin), "m.stl:6: the file ends where vertex was expected");
   EXPECT_EQ(error_of("m.stl", begin + "vertex 0 1 inf\nendloop\nendfacet\nendsolid\n"),
-            "m.stl:6: a corner has coordinates (0, 1, inf), expected finite numbers");
+            "m.stl:6: a corner has coordinates (0, 1, inf), expected finite numbers. Next: give its place");
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1.5\n";
   EXPECT_EQ(error_of("m.obj", points + "f 1 2 3\nf 2 1 4\nf 1 2 5\n"),
             "m.obj:8: the edge from point 1 to point 2 belongs to 3 triangles (triangle 1 and triangle 3 among them); "
