@@ -16,7 +16,6 @@
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
-#include "mesh/exact_range.hpp"
 
 namespace temper::io {
 
@@ -139,7 +138,7 @@ void check_tetrahedra(Document& d) {
   check_ranges(d);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     const Vec3 p = d.place(i);
-    if (is_finite(p)) continue;
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
     fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has coordinates (", p.x, ", ", p.y, ", ",
          p.z, "), expected finite numbers. Next: give its place");
   }

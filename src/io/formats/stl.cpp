@@ -21,7 +21,6 @@
 #include "io/formats/format.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
-#include "mesh/exact_range.hpp"
 
 namespace temper::io {
 namespace {
@@ -46,6 +45,7 @@ std::optional<std::uint32_t> n_of_binary(std::string_view beginning) {
   return little_endian(beginning.substr(kStlTitle, 4));
 }
 
+bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 std::string fault_of(Vec3 p) {
   return text("a corner has coordinates (", p.x, ", ", p.y, ", ", p.z,
               "), expected finite numbers. Next: give its place");
