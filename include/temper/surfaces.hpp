@@ -347,7 +347,7 @@ struct SurfaceOptions {
   Criterion criterion = Criterion::well_centered;
   double margin = 0.01;  ///< Margin t of the final weights, in (0, 1/2)
   /// Largest distance from each point of the input to the result, and back, as a part of the diagonal of the bounding
-  /// box. It also holds between lines.
+  /// box. It also holds between lines. 0 is taken as 1e-12, for rounding: vertices move in planes alone.
   double surface_distance = 0.005;
   /// Creases are edges whose triangles turn by more than this angle, from 1° to 180°. No vertex leaves a crease. New
   /// vertices may split its edges. A thin triangle that two such edges fold out of the surface has none.

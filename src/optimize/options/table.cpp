@@ -468,7 +468,7 @@ constexpr OptionRow kGuardRows[] = {
         {.cells = kBoth, .range = from_to(0, 60), .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::edge>("guard_edge",
                                      "Bound of the guard for the least length of an inner edge over the size of its "
-                                     "triangles. 1: the input's. 0: no limit",
+                                     "triangles, not over the local size. 1: the input's. 0: no limit",
                                      {.range = from_to(0, 1), .needs = {kForAccuracy}}),
     row<kGuard, &GuardOptions::areas>("guard_areas",
                                       "Bound of the guard for the largest ratio of the areas of two triangles that "
@@ -516,7 +516,8 @@ constexpr auto kForSurfaces = CellKinds::surfaces;
 constexpr OptionRow kSurfaceRows[] = {
     row<kSurfaces, &CurvedSurfaceOptions::distance>(
         "surface_distance",
-        "Largest distance between the input surface and the result, in parts of the diagonal of the bounding box",
+        "Largest distance between the input surface and the result, in parts of the diagonal of the bounding box. "
+        "0: rounding, so that vertices move and edges flip in planes alone",
         {.cells = kForSurfaces, .range = {0, 1}, .common = true}),
     row<kSurfaces, &CurvedSurfaceOptions::crease_angle>(
         "crease_angle",

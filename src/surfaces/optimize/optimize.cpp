@@ -13,6 +13,9 @@
 namespace temper::surfaces {
 namespace {
 
+// Rounding leaves a plane by less, in parts of the diagonal: with less room no vertex could move.
+constexpr double kRoundedDistance = 1e-12;
+
 std::optional<InputError> expect_options(const SurfaceOptions& o) {
   const auto error = [](const std::string& name, const std::string& expected, double found) {
     return InputError{ErrorCode::invalid_option, "", name + ": expected " + expected + ", found " + to_text(found)};
@@ -108,7 +111,8 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
   report.diagonal = diagonal_of(mesh);
   const double unit = std::exp2(std::ilogb(report.diagonal));
   State input = with_creases(scaled(mesh, 1 / unit), options.crease_angle_deg);
-  const Nearness nearness(input.mesh, options.surface_distance * report.diagonal / unit);
+  const double most = std::max(kRoundedDistance, options.surface_distance) * report.diagonal / unit;
+  const Nearness nearness(input.mesh, most);
   Run run{options, nearness, solver, report, unit};
   run.start = options.started.value_or(begin);
 

@@ -445,6 +445,20 @@ TEST(SurfaceOptimize, AnotherUnitOfLengthChangesNothingElse) {
   }
 }
 
+TEST(SurfaceOptimize, WithoutDistanceVerticesMoveInPlanesAlone) {
+  for (const bool is_curved : {false, true}) {
+    SurfaceMesh mesh = is_curved ? rough_grid(6, 0.2, 1) : test::mesh_of(shaken_box({5, 5, 5}, 0.25, 3));
+    const SurfaceMesh input = mesh;
+    SurfaceOptions options;
+    options.surface_distance = 0;
+    const SurfaceReport report = optimized(mesh, options);
+    EXPECT_LE(report.surface_distance, 1e-12 * report.diagonal);
+    EXPECT_LE(sampled_distance(mesh, input, 10, 1), 1e-12 * report.diagonal);
+    EXPECT_EQ(report.flips > 0, !is_curved);
+    EXPECT_LT(report.violations_after, report.violations_before);
+  }
+}
+
 /// The turns at all edges that have two triangles.
 std::vector<double> all_turns(const SurfaceMesh& mesh) {
   std::vector<double> turns;

@@ -164,7 +164,7 @@ export interface OptimizeOptions {
   guard?: "none" | "fem" | "adcirc" | "dflowfm" | "mpas";
   /** Bound of the guard for the least angle a in degrees, and 180 - 2a for the largest one. The least angle never falls below it, or below the least one of the input if that is smaller. 60: the input's. 0: no limit. For tetrahedra it is about dihedral angles, and bounds the least alone; at least 0 and at most 60. Default: 0. */
   guard_angle?: number;
-  /** Bound of the guard for the least length of an inner edge over the size of its triangles. 1: the input's. 0: no limit; at least 0 and at most 1. Default: 0. */
+  /** Bound of the guard for the least length of an inner edge over the size of its triangles, not over the local size. 1: the input's. 0: no limit; at least 0 and at most 1. Default: 0. */
   guard_edge?: number;
   /** Bound of the guard for the largest ratio of the areas of two triangles that share an edge; at least 1. null: no limit. Default: null. */
   guard_areas?: number | null;
