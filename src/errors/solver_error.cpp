@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/sine_cosine.hpp"
@@ -264,7 +265,9 @@ class SolverErrorModel final : public DiscretizationError {
     ErrorSubject subject{mesh, dec_operators(mesh), {}};
     double area = 0;
     for (const double of_triangle : subject.dec.areas) area += of_triangle;
-    subject.waves = waves_of<Vec2>(field_frame(mesh), area, 1);
+    std::span<const double> numbers = kWaveNumbers;
+    if (scheme_ == Scheme::cell) numbers = kWaveNumberInCells;
+    subject.waves = waves_of<Vec2>(field_frame(mesh), area, numbers);
     return subject;
   }
 

@@ -140,8 +140,9 @@ class TetVertexError final : public DiscretizationError {
     if (gradients != nullptr) gradients->clear();
     std::vector<double> sums;
     const FieldFrame frame = field_frame(mesh);
-    for (const auto& fields : {error_detail::waves_of<Vec3>(frame, dec.volume, kBlocksOfNumber),
-                               error_detail::fronts_of<Vec3>(frame, dec.volume)}) {
+    for (const auto& fields :
+         {error_detail::waves_of<Vec3>(frame, dec.volume, error_detail::kWaveNumbers, kBlocksOfNumber),
+          error_detail::fronts_of<Vec3>(frame, dec.volume)}) {
       std::optional<Adjoint> by;
       if (gradients != nullptr) by.emplace(mesh.n_vertices(), dec.edges.size());
       sums.push_back(sum_over(fields, by ? &*by : nullptr, executor, [&](const Fields& block, Adjoint* part) {

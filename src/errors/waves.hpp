@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "base/sine_cosine.hpp"
@@ -14,8 +14,9 @@
 
 namespace temper::error_detail {
 
-// Wave numbers in radians per half of the bounding box.
-inline constexpr double kWaveNumbers[] = {1.5, 3.5};
+// Wave numbers in radians per half of the bounding box. In triangles one number gives meshes with errors as small as
+// two. At vertices it gives errors up to 1.6 times as large.
+inline constexpr double kWaveNumbers[] = {1.5, 3.5}, kWaveNumberInCells[] = {2.5};
 inline constexpr double kFrontNumber = 7;
 inline constexpr std::size_t kFrontBlocks = 8;
 // A block has a sine and a cosine in each direction. So the sum of their squares does not depend on the place.
@@ -110,14 +111,15 @@ template <class Vec, class Frame>
   return block;
 }
 
-/// Some blocks of waves for each wave number, in the units of a mesh with this frame and this area or volume. Their
-/// errors are relative to the mean square ½, over k⁴ in the frame, in the mean.
+/// Some blocks of waves for each of these wave numbers, in the units of a mesh with this frame and this area or volume.
+/// Their errors are relative to the mean square ½, over k⁴ in the frame, in the mean.
 template <class Vec, class Frame>
-[[nodiscard]] std::vector<FieldBlock<Vec>> waves_of(const Frame& frame, double size, std::size_t blocks_of_number) {
-  const std::size_t n = blocks_of_number * std::size(kWaveNumbers);
+[[nodiscard]] std::vector<FieldBlock<Vec>> waves_of(const Frame& frame, double size, std::span<const double> numbers,
+                                                    std::size_t blocks_of_number = 1) {
+  const std::size_t n = blocks_of_number * numbers.size();
   std::vector<FieldBlock<Vec>> blocks;
   for (std::size_t b = 0; b < n; ++b) {
-    const double in_frame = kWaveNumbers[b / blocks_of_number];
+    const double in_frame = numbers[b / blocks_of_number];
     blocks.push_back(block_of<Vec>(frame, in_frame, b, n));
     blocks[b].share = 2 / (size * in_frame * in_frame * in_frame * in_frame * static_cast<double>(n) * kLanes);
   }

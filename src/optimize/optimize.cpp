@@ -1,6 +1,7 @@
 // optimize(): restarts, repairs, and the phase of the accuracy objective work on copies. The user gets the best mesh.
 #include "temper/optimize.hpp"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -33,31 +34,36 @@ std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& 
   return options.size_field ? options.size_field : input_size_field_of(mesh, executor);
 }
 
-/// Runs one more phase. If a model of errors says that the mesh is worse, the phase is undone. `known`: the score of
-/// `best`, if the phase before has measured it.
+/// Runs one more phase. Returns the least measure of its meshes.
 template <class Improving>
-void improve(Candidate& best, std::optional<MeshScore>& known, const Settings& settings, Run& run,
-             AccuracySizes& sizes) {
-  if (run.stopped_early() || run.report.stopped == Stopped::hidden) return;
-  std::optional<Candidate> before;
-  if (settings.errors != nullptr) before = best;
+double improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes& sizes) {
+  if (run.stopped_early() || run.report.stopped == Stopped::hidden) return kInfinity;
   Improving phase(best.work, settings, run, sizes.lend(best.work, settings.executor()));
   Driver driver(best.work, phase.settings(), phase.state(), run);
   best.sweep = driver.run(phase, best.sweep);
   sizes.take_back(phase.take_sizes(), best.work, settings.executor());
-  if (!before) return;
-  const auto score_of = [&](const Candidate& c) {
-    const VertexSizes own = sizes.of(c.work, settings.executor());
-    return score(c.work.mesh, settings, settings.model, &own, c.work.units);
-  };
-  const MeshScore now = score_of(best);
-  if (!known) known = score_of(*before);
-  if (replaces(now, *known, Requirement::not_worse)) {
-    known = now;
-    return;
+  return driver.least_measure();
+}
+
+/// Runs the phases for accuracy. If a model of errors says that the mesh is worse, they are undone.
+void improve_accuracy(Candidate& best, const Settings& settings, SweepState& state, Run& run, AccuracySizes& sizes) {
+  std::optional<Candidate> before;
+  if (settings.errors != nullptr) before = best;
+  improve<AccuracyPhase>(best, settings, run, sizes);
+  if (settings.objective == Objective::solver_error) {
+    const double error = improve<SolverErrorPhase>(best, settings, run, sizes);
+    if (std::isfinite(error)) best.error = error;
   }
+  if (!before || before->sweep == best.sweep) return;
+  const auto score_of = [&](const Candidate& c) {
+    const MeshScore counts = count(c.work.mesh, settings, c.work.units);
+    if (c.error) return score(c.work.mesh, counts, settings, *c.error);
+    const VertexSizes own = sizes.of(c.work, settings.executor());
+    return score(c.work.mesh, counts, settings, settings.model, &own);
+  };
+  if (replaces(score_of(best), score_of(*before), Requirement::not_worse)) return;
   best = *std::move(before);
-  driver.recorder().returned_to(best.sweep);
+  Driver(best.work, settings, state, run).recorder().returned_to(best.sweep);
 }
 
 // A cure that finds nothing in so many moves gives way to repairs, which insert more vertices.
@@ -113,9 +119,7 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
                                         : well_centered(input, settings, state, run);
   if (!found || run.facts.gave_up || settings.changes_least()) return found;
   Candidate best = *std::move(found);
-  std::optional<MeshScore> known;
-  if (sizes) improve<AccuracyPhase>(best, known, settings, run, *sizes);
-  if (settings.objective == Objective::solver_error) improve<SolverErrorPhase>(best, known, settings, run, *sizes);
+  if (sizes) improve_accuracy(best, settings, state, run, *sizes);
   return best;
 }
 

@@ -15,6 +15,9 @@ constexpr int kSweepsForLengths = 3;
 // Near the minimum it overshoots, so sweeps that gain little go on with 1.7.
 constexpr double kFirstRelaxation = 1.97;
 constexpr double kLittleGain = 1e-4;  // part of the energy
+// If steps for the solver's error follow, which lower this energy, too, sweeps end so many tolerances earlier. With 100
+// errors are 1 % larger.
+constexpr double kTolerancesBeforeError = 50;
 
 /// Returns the settings of the second phase: always Newton steps along the curve, which keep all edges.
 Settings of_accuracy(Settings s) {
@@ -83,7 +86,9 @@ Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
   const double change = (before_.energy + before_.barrier) - (now_.energy + now_.barrier);
   if (change < kLittleGain * std::abs(now_.energy))
     state_.relaxation = settings_.policy.relaxation.value_or(kRelaxation);
-  if (std::abs(change) > settings_.options.accuracy.tolerance * std::abs(now_.energy)) return Verdict::improving;
+  const bool error_follows = settings_.objective == Objective::solver_error && bad_ == 0;
+  const double tolerance = settings_.options.accuracy.tolerance * (error_follows ? kTolerancesBeforeError : 1);
+  if (std::abs(change) > tolerance * std::abs(now_.energy)) return Verdict::improving;
   run_.report.stopped = Stopped::converged;
   return Verdict::settled;
 }

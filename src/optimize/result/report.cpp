@@ -56,9 +56,10 @@ Objective reported_objective(const Settings& settings) {
 }
 
 /// `model`: in the user's units. Data that are no longer needed are freed before the next measure.
-Result result_of(InputMesh& input, WorkingCopy work, const Settings& settings, const EnergyModel& model,
+Result result_of(InputMesh& input, Candidate candidate, const Settings& settings, const EnergyModel& model,
                  std::optional<AccuracySizes> sizes) {
   Executor* const executor = settings.executor();
+  WorkingCopy& work = candidate.work;
   Result result;
   const bool for_accuracy = sizes.has_value(), scattered = input.is_scattered();
   VertexSizes own;
@@ -73,7 +74,9 @@ Result result_of(InputMesh& input, WorkingCopy work, const Settings& settings, c
     work.take_user_order(executor);
     if (on_sphere) take_back_rounding(input.whole(), result.vertices, work.mesh);
   }
-  result.score = score(work.mesh, settings, model, for_accuracy ? &own : nullptr);
+  const MeshScore counts = count(work.mesh, settings);
+  result.score = candidate.error ? score(work.mesh, counts, settings, *candidate.error)
+                                 : score(work.mesh, counts, settings, model, for_accuracy ? &own : nullptr);
   own = {};
   if (wants_sizes(settings)) {
     const auto& numbers = scattered ? work.order->vertices : result.vertices;
@@ -167,10 +170,10 @@ struct Rivals {
   double energy_before = 0;        ///< of the input
 };
 
-Rivals measure(InputMesh& input, WorkingCopy best, const RunEnd& end, std::optional<AccuracySizes> sizes,
+Rivals measure(InputMesh& input, Candidate best, const RunEnd& end, std::optional<AccuracySizes> sizes,
                const Run& run) {
   const auto& [settings, state, of_input] = end;
-  const EnergyModel model = in_user_units(state.model, best.units);
+  const EnergyModel model = in_user_units(state.model, best.work.units);
   Rivals rivals;
   rivals.made = result_of(input, std::move(best), settings, model, std::move(sizes));
   const MeshScore before =
@@ -189,7 +192,7 @@ Rivals measure(InputMesh& input, WorkingCopy best, const RunEnd& end, std::optio
   Settings recorded = settings;
   std::vector<TraceEvent> events;
   if (settings.hooks.tracer) recorded.hooks.tracer = [&events](const TraceEvent& e) { events.push_back(e); };
-  Result flipped = result_of(input, made_regular(input.whole(), recorded, state, run.report.sweeps), settings, model,
+  Result flipped = result_of(input, {made_regular(input.whole(), recorded, state, run.report.sweeps)}, settings, model,
                              std::move(again));
   // Regularity comes before the worst triangle, but not before the measures of the client.
   if (settings.guard != nullptr && flipped.score.beyond_guard > 0) return rivals;
@@ -272,7 +275,7 @@ void keep_input(InputMesh& input, const RunEnd& end, Run& run) {
 }
 
 void give_back(InputMesh& input, Candidate best, const RunEnd& end, std::optional<AccuracySizes> sizes, Run& run) {
-  Rivals rivals = measure(input, std::move(best.work), end, std::move(sizes), run);
+  Rivals rivals = measure(input, std::move(best), end, std::move(sizes), run);
   const bool worse = returns_input(rivals, input, end.settings, run.facts);
   hand_over(input, std::move(rivals), worse, end, run);
 }

@@ -187,20 +187,37 @@ MeshScore score(const Mesh& mesh, const Settings& settings, const EnergyModel& m
   return score(mesh, count(mesh, settings, units), settings, model, sizes);
 }
 
-MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings, const EnergyModel& model,
-                const VertexSizes* sizes) {
-  Executor* const executor = settings.executor();
+namespace {
+
+/// Completes a score except for margins and energy.
+MeshScore without_energy(const Mesh& mesh, const MeshScore& counts, const Settings& settings) {
   MeshScore s = counts;
   if (settings.policy.keeps_hidden()) s.non_regular = 0;
   if (!settings.energy().barrier) s.bad = 0;
-  s.missing_lengths = missing_lengths(mesh, settings.accuracy, executor);
-  if (sizes == nullptr) {
-    s.energy = total_energy(mesh, model, executor);
-    return s;
+  s.missing_lengths = missing_lengths(mesh, settings.accuracy, settings.executor());
+  return s;
+}
+
+}  // namespace
+
+MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings, const EnergyModel& model,
+                const VertexSizes* sizes) {
+  Executor* const executor = settings.executor();
+  if (sizes != nullptr) {
+    const bool by_error = settings.errors != nullptr;
+    return score(mesh, counts, settings,
+                 by_error ? root_mean_square(settings.errors->errors(mesh, nullptr, executor))
+                          : accuracy_energy(mesh, *sizes, settings.accuracy, executor));
   }
-  s.lacks_margins = !has_margins(mesh, settings.accuracy.margin, executor);
-  s.energy = settings.errors != nullptr ? root_mean_square(settings.errors->errors(mesh, nullptr, executor))
-                                        : accuracy_energy(mesh, *sizes, settings.accuracy, executor);
+  MeshScore s = without_energy(mesh, counts, settings);
+  s.energy = total_energy(mesh, model, executor);
+  return s;
+}
+
+MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings, double energy) {
+  MeshScore s = without_energy(mesh, counts, settings);
+  s.lacks_margins = !has_margins(mesh, settings.accuracy.margin, settings.executor());
+  s.energy = energy;
   return s;
 }
 

@@ -62,6 +62,8 @@ enum class Requirement {
 /// Completes the score of a mesh from its counts.
 [[nodiscard]] MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings,
                               const EnergyModel& model, const VertexSizes* sizes);
+/// Completes it with a known value of the accuracy objective, or with a known error of the solver.
+[[nodiscard]] MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings, double energy);
 
 /// Says whether the mesh violates the criterion of the settings. O(n).
 [[nodiscard]] bool is_unfinished(const Mesh& mesh, const Settings& settings);

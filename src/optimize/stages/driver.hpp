@@ -33,6 +33,8 @@ class Driver {
   int restart(const Restart& restart, bool may_give_up);
   /// Makes the sweeps of one phase. `sweep`: the sweep whose mesh the working copy is. Returns as restart().
   int run(Phase& phase, int sweep);
+  /// Returns the least measure in the phase that was run last: the returned mesh has it, unless the phase keeps none.
+  [[nodiscard]] double least_measure() const { return best_.measure; }
 
   /// Searches locally for repairs of triangles that all restarts left bad. Returns false if nothing changed.
   /// `asks_programs`: use linear programs for weights. `memo`: trials of this run with the

@@ -90,6 +90,7 @@ struct WorkingCopy {
 struct Candidate {
   WorkingCopy work;
   int sweep = 0;
+  std::optional<double> error = {};  ///< of the solver, if its phase has measured it
 };
 
 }  // namespace temper

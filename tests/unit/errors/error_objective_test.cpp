@@ -76,6 +76,33 @@ TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective)
   }
 }
 
+TEST(ErrorObjective, ReportsTheErrorsOfTheInputAndOfTheReturnedMesh) {
+  const Mesh input = *random_mesh({.vertices = 150, .seed = 8});
+  const auto mean_of = [&](const Mesh& mesh, Scheme scheme) {
+    double product = 1;
+    const std::vector<double> errors = errors_on(mesh, input, scheme);
+    for (const double error : errors) product *= error;
+    return std::pow(product, 0.5 / static_cast<double>(errors.size()));
+  };
+  for (const Scheme scheme : {Scheme::vertex, Scheme::all}) {
+    const Improved result = improved(input, options_for(scheme));
+    EXPECT_NEAR(result.report.objective_after / mean_of(result.mesh, scheme), 1, 1e-9);
+    if (scheme == Scheme::vertex) {
+      EXPECT_NEAR(result.report.objective_before / mean_of(input, scheme), 1, 1e-9);
+    }
+  }
+}
+
+TEST(ErrorObjective, SweepsForAccuracyEndEarlierIfStepsForTheErrorFollow) {
+  const Mesh input = *random_mesh({.vertices = 400, .seed = 8});
+  const auto sweeps_for = [&](Objective objective) {
+    const Improved result = improved(input, {.objective = objective, .scheme = Scheme::vertex});
+    return std::ranges::count(result.report.history, Objective::accuracy, &SweepRecord::objective);
+  };
+  EXPECT_GT(sweeps_for(Objective::solver_error), 0);
+  EXPECT_LT(sweeps_for(Objective::solver_error), sweeps_for(Objective::accuracy));
+}
+
 // Some triangle of a random mesh is always close to its floor.
 TEST(ErrorObjective, TightTrianglesHoldBackNoOtherVertices) {
   const Mesh input = *random_mesh({.vertices = 400, .seed = 8});
