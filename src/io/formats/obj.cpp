@@ -62,8 +62,11 @@ class ObjReader {
     if (std::find(kIgnored.begin(), kIgnored.end(), word) == kIgnored.end()) {
       scanner_.fail_here(ErrorCode::syntax, "expected a statement of OBJ, found ", in_quotes(word));
     }
-    if (std::find(ignored_.begin(), ignored_.end(), word) == ignored_.end()) ignored_.emplace_back(word);
+    ignore(word);
     scanner_.next_line();
+  }
+  void ignore(std::string_view word) {
+    if (std::find(ignored_.begin(), ignored_.end(), word) == ignored_.end()) ignored_.emplace_back(word);
   }
   void vertex() {
     FileNames& names = *document_.names;
@@ -73,6 +76,7 @@ class ObjReader {
     document_.file.points.push_back({x, scanner_.real("the y coordinate of a vertex")});
     const double z = scanner_.more_on_line() ? scanner_.real("the z coordinate of a vertex") : 0;
     plane_.add(document_.file.points.size() - 1, z);
+    if (scanner_.more_on_line()) ignore("numbers after z");
     while (scanner_.more_on_line()) scanner_.word("a color");
   }
   void face() {

@@ -116,6 +116,12 @@ TEST_F(OtherFormats, OffWithColorsAndCommentsIsReadAndSaysWhatItDrops) {
   EXPECT_EQ(read_ok("m.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").triangles.corners, (Triangles{{0, 1, 2}}));
 }
 
+TEST_F(OtherFormats, ObjSaysThatItDropsColors) {
+  const MeshFile f = read_ok("m.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\n");
+  ASSERT_EQ(f.warnings.size(), 1u);
+  EXPECT_NE(f.warnings[0].find("statements that are no mesh are dropped: numbers after z, vn"), std::string::npos);
+}
+
 TEST_F(OtherFormats, QuadrilateralsOfOffAndObjAreCutInTwo) {
   const std::string points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
   EXPECT_EQ(read_ok("m.off", "OFF\n4 1 0\n" + points + "4 0 1 2 3\n").triangles.size(), 2u);
