@@ -51,6 +51,8 @@ class DecBuilder {
  public:
   DecBuilder(const Mesh& mesh, Measures measures) : mesh_(mesh), measures_(std::move(measures)) {}
   DecComplex build();
+  /// Without d0 and d1.
+  DecComplex build_measures();
 
  private:
   void triangles();
@@ -67,6 +69,13 @@ class DecBuilder {
 
 template <class Measures>
 DecComplex DecBuilder<Measures>::build() {
+  c_ = build_measures();
+  incidence();
+  return std::move(c_);
+}
+
+template <class Measures>
+DecComplex DecBuilder<Measures>::build_measures() {
   triangles();
   const std::vector<HalfedgeId> edges = sorted_edges(mesh_);
   c_.edges.reserve(edges.size());
@@ -74,7 +83,6 @@ DecComplex DecBuilder<Measures>::build() {
   c_.transmissibility.reserve(edges.size());
   c_.edge_of_halfedge.resize(mesh_.n_halfedges());
   for (const HalfedgeId h : edges) add_edge(h);
-  incidence();
   dual_areas();
   return std::move(c_);
 }

@@ -15,6 +15,7 @@
 #include "dec/accurate.hpp"
 #include "dec/builder.hpp"
 #include "dec/coefficient.hpp"
+#include "dec/measures.hpp"
 #include "dec/summary.hpp"
 #include "geometry/surface.hpp"
 #include "mesh/bad_triangles.hpp"
@@ -127,6 +128,8 @@ DecComplex dec_operators(const Mesh& mesh) {
   return mesh.space().is_plane() ? DecBuilder(mesh, PlaneMeasures(mesh)).build()
                                  : DecBuilder(mesh, SphereMeasures(mesh)).build();
 }
+
+DecComplex dec_measures(const Mesh& mesh) { return DecBuilder(mesh, PlaneMeasures(mesh)).build_measures(); }
 
 Expected<DecComplex> with_coefficient(const Mesh& mesh, DecComplex complex, std::span<const double> coefficient,
                                       const InputNames* names) {

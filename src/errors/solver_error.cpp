@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/sine_cosine.hpp"
+#include "dec/measures.hpp"
 #include "errors/diffusion.hpp"
 #include "errors/fields.hpp"
 #include "errors/lender.hpp"
@@ -262,7 +263,7 @@ class SolverErrorModel final : public DiscretizationError {
 
  private:
   [[nodiscard]] ErrorSubject subject_of(const Mesh& mesh) const {
-    ErrorSubject subject{mesh, dec_operators(mesh), {}};
+    ErrorSubject subject{mesh, dec_measures(mesh), {}};
     double area = 0;
     for (const double of_triangle : subject.dec.areas) area += of_triangle;
     std::span<const double> numbers = kWaveNumbers;
