@@ -5,6 +5,7 @@
 #include "optimize_options.hpp"
 #include "space_mesh.hpp"
 #include "temper/detail/lp.hpp"
+#include "temper/solvers.hpp"
 
 namespace temper::python {
 namespace {
@@ -39,6 +40,7 @@ py::tuple optimize_surface(PySurface& self, const py::dict& given, const py::obj
   surfaces::SurfaceMesh mesh = self.mesh();
   Visitor visitor;
   options.observer = observer_of(visitor, observer);
+  options.squared_errors = surfaces::squared_errors();
   options.must_stop = [&visitor] { return !visitor.check_signals(); };
   const Run run(self.running);
   auto report = aside([&] { return optimize(mesh, *clp_solver(), options); });

@@ -53,7 +53,7 @@ LAYERS = {
     "tbb": ["base"],
     "mpi": ["base"],
     "errors": _BELOW + ["location", "energy", "regularity", "quality", "dec", "surfaces", "tets"],
-    "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "quality", "lp", "errors", "io", "tets"],
+    "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "quality", "lp", "errors", "io", "tets", "surfaces"],
     "build_info": ["base", "io"],
 }
 LIBRARIES = {"tets", "surfaces", "io", "lp", "tbb", "mpi", "errors", "solvers", "build_info"}  # of their own

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "temper/optimize.hpp"
+#include "temper/surfaces.hpp"
 #include "temper/tets/optimize.hpp"
 
 namespace temper {
@@ -24,3 +25,10 @@ namespace temper::tets {
 [[nodiscard]] Solvers solvers(Scheme scheme);
 
 }  // namespace temper::tets
+
+namespace temper::surfaces {
+
+/// For SurfaceOptions, by Eigen. Empty if the build lacks it.
+[[nodiscard]] SquaredErrors squared_errors();
+
+}  // namespace temper::surfaces

@@ -27,9 +27,6 @@ constexpr double kGain = 1e-3;
 
 double squared(double x) { return x * x; }
 
-// A triangle with less than ε keeps a part of its margin: the barrier must be finite in the current mesh. A thin one
-// gets more room, with which its neighbors let it grow.
-double kept(double now, double margin) { return 0.9 * now * std::sqrt(std::min(1.0, 2 * now / margin)); }
 // Below this part of ℓ a height is mostly rounding, and its logarithm, too.
 constexpr double kLeastMargin = 1e-9;
 
@@ -110,7 +107,7 @@ std::size_t AccuracyFloors::raise_block(const Mesh& mesh, std::size_t block, boo
     if (!may_have_one || before == margin_) return before;
     const double now = triangle_margin(mesh, t);
     if (first && now < kLeastMargin) return before;
-    return now > margin_ ? margin_ : std::max(before, kept(now, margin_));
+    return now > margin_ ? margin_ : std::max(before, kept_margin(now, margin_));
   };
   std::vector<double>& floors = blocks_[block];
   if (first) floors.assign(std::min(kBlock, size_ - block * kBlock), 0.0);

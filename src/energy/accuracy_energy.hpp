@@ -23,6 +23,8 @@
 // AccuracyFloors.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -67,6 +69,12 @@ using VertexSizes = IdVector<VertexId, double>;
 
 /// The least of h/ℓ, d/ℓ and 1 − d/ℓ over the edges of the triangle, in doubles.
 [[nodiscard]] double triangle_margin(const Mesh& mesh, TriangleId t);
+
+/// The part of a margin below ε that a triangle keeps: the barrier must be finite in the current mesh. A thin one gets
+/// more room, with which its neighbors let it grow.
+[[nodiscard]] inline double kept_margin(double now, double margin) {
+  return 0.9 * now * std::sqrt(std::min(1.0, 2 * now / margin));
+}
 
 /// Says whether every triangle is well-centered, exactly, with a margin of more than `margin`.
 [[nodiscard]] bool has_margins(const Mesh& mesh, double margin, Executor* executor = nullptr);

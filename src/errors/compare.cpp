@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "errors/poisson.hpp"
+#include "temper/surface_errors.hpp"
 
 namespace temper {
 namespace {
@@ -89,6 +91,21 @@ OperatorErrors mean(std::span<const FieldErrors> fields, std::optional<FieldGrou
   return result;
 }
 
+/// Sums over the fields, for each norm of the errors that the scheme is meant to lower.
+std::vector<double> squared_errors(std::span<const FieldErrors> fields, Scheme scheme) {
+  std::vector<double> squared;
+  for (const ErrorMeasure& measure : kMeasures) {
+    const bool at_vertices = measure.key.starts_with("poisson."), in_cells = measure.key.starts_with("flux.");
+    const bool of_stars = !at_vertices && !in_cells;
+    if (of_stars != (scheme == Scheme::stars)) continue;
+    if ((at_vertices && scheme == Scheme::cell) || (in_cells && scheme == Scheme::vertex)) continue;
+    double sum = 0;
+    for (const FieldErrors& row : fields) sum += measure.of(row.errors) * measure.of(row.errors);
+    squared.push_back(sum);
+  }
+  return squared;
+}
+
 }  // namespace
 
 std::span<const ErrorMeasure> error_measures() { return kMeasures; }
@@ -113,18 +130,13 @@ Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const 
 }
 
 std::vector<double> squared_solver_errors(const Mesh& mesh, Scheme scheme, Executor* executor) {
-  const std::string chosen(name(FieldGroup::chosen));
-  const auto report = measure_errors(mesh, {.fields = {chosen}, .executor = executor});
-  std::vector<double> squared;
-  if (!report) return squared;
-  for (const ErrorMeasure& measure : kMeasures) {
-    const bool at_vertices = measure.key.starts_with("poisson."), in_cells = measure.key.starts_with("flux.");
-    if (!(at_vertices && scheme != Scheme::cell) && !(in_cells && scheme != Scheme::vertex)) continue;
-    double sum = 0;
-    for (const FieldErrors& row : report->fields) sum += measure.of(row.errors) * measure.of(row.errors);
-    squared.push_back(sum);
-  }
-  return squared;
+  const auto report = measure_errors(mesh, {.fields = {std::string(name(FieldGroup::chosen))}, .executor = executor});
+  return report ? squared_errors(report->fields, scheme) : std::vector<double>();
+}
+
+std::vector<double> surfaces::squared_solver_errors(const SurfaceMesh& mesh, Scheme scheme) {
+  const auto report = measure_errors(mesh, {.fields = {std::string(name(FieldGroup::chosen))}});
+  return report ? squared_errors(report->fields, scheme) : std::vector<double>();
 }
 
 namespace error_detail {

@@ -5,6 +5,7 @@
 #endif
 #ifdef TEMPER_WITH_ERRORS
 #include "temper/errors.hpp"
+#include "temper/surface_errors.hpp"
 #include "temper/tets/errors.hpp"
 #endif
 
@@ -42,3 +43,15 @@ Solvers solvers([[maybe_unused]] Scheme scheme) {
 }
 
 }  // namespace temper::tets
+
+namespace temper::surfaces {
+
+SquaredErrors squared_errors() {
+#ifdef TEMPER_WITH_ERRORS
+  return squared_solver_errors;
+#else
+  return {};
+#endif
+}
+
+}  // namespace temper::surfaces

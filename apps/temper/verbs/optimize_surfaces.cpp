@@ -4,6 +4,7 @@
 #include "console.hpp"
 #include "reports/quality_report.hpp"
 #include "temper/detail/lp.hpp"
+#include "temper/solvers.hpp"
 #include "verbs/optimize_run.hpp"
 
 namespace temper::app {
@@ -21,6 +22,7 @@ void improve(const OptimizeSettings& s, SurfaceInput& input, const RunFiles& fil
   flush_output();
   ProgressLine line(!is_quiet() && error_is_terminal(), Surfaces::elements);
   options->started = s.started;
+  options->squared_errors = surfaces::squared_errors();
   options->must_stop = [] { return interrupted(); };
   options->observer = [&line](const Progress& progress) {
     line.show(progress);

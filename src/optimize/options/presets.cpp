@@ -53,7 +53,8 @@ constexpr auto kTargets = std::to_array<Preset>({
      [](Options& o) { o.scheme = Scheme::vertex; }},
     {"cell", "Unknowns in triangles, two-point flux: PorePy, FiPy", kForAll,
      [](Options& o) { o.scheme = Scheme::cell; }},
-    {"stars", "Diagonal Hodge stars of exterior calculus", kForTriangles, [](Options& o) { o.scheme = Scheme::stars; }},
+    {"stars", "Diagonal Hodge stars of exterior calculus", CellKinds::all_triangles,
+     [](Options& o) { o.scheme = Scheme::stars; }},
     {"mpas", "MPAS: no weights, centered edges; may add and remove vertices", kForTriangles,
      [](Options& o) {
        place_vertices(o, kLongDual);

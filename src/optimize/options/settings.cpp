@@ -222,17 +222,6 @@ std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh
   return std::nullopt;
 }
 
-AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star) {
-  const auto i = static_cast<std::size_t>(star);
-  const SchemeWeights preset = scheme_weights(scheme);
-  AccuracyModel model = AccuracyModel::of(kAlpha[i], kBeta[i], a.offset_factor.value_or(preset.offset_factor),
-                                          a.boundary_offset_factor.value_or(preset.boundary_offset_factor));
-  model.margin = a.margin.value_or(preset.margin);
-  model.barrier = a.barrier;
-  model.min_edge = a.min_edge, model.min_dual = a.min_dual;
-  return model;
-}
-
 /// Says why a run does not lower the error of the user's own problem.
 InputError no_use_of_problem(const OptimizeOptions& o, const Mesh& mesh) {
   OptimizeOptions more = o;
@@ -294,6 +283,17 @@ Policy::Policy(const OptimizeOptions& o) : PaperSwitches(o.paper), flips(o.flips
 FlipLimit Policy::flip_limit_for(const EnergyInfo& energy) const {
   if (keeps_connectivity()) return FlipLimit::before;
   return flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
+}
+
+AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star) {
+  const auto i = static_cast<std::size_t>(star);
+  const SchemeWeights preset = scheme_weights(scheme);
+  AccuracyModel model = AccuracyModel::of(kAlpha[i], kBeta[i], a.offset_factor.value_or(preset.offset_factor),
+                                          a.boundary_offset_factor.value_or(preset.boundary_offset_factor));
+  model.margin = a.margin.value_or(preset.margin);
+  model.barrier = a.barrier;
+  model.min_edge = a.min_edge, model.min_dual = a.min_dual;
+  return model;
 }
 
 SchemeWeights scheme_weights(Scheme scheme) {

@@ -116,6 +116,9 @@ struct SweepState {
 /// Returns the unknowns of a sweep, counted from 0; weights are unknowns from sweep i_w on.
 [[nodiscard]] Unknowns unknowns_of_sweep(const Settings& settings, const EnergyInfo& energy, int sweep);
 
+/// Returns the factors of the accuracy energy for a scheme.
+[[nodiscard]] AccuracyModel accuracy_model(const AccuracyOptions& options, Scheme scheme, Star star);
+
 /// Returns the model with absolute γ and h° in the user's units of length.
 [[nodiscard]] EnergyModel in_user_units(EnergyModel model, const WorkingUnits& units);
 

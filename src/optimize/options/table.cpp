@@ -238,10 +238,7 @@ constexpr OptionRow kAccuracyRows[] = {
     row<&Options::scheme>("scheme",
                           "Scheme of the solver. vertex: unknowns at vertices. cell: unknowns at orthocenters, "
                           "two-point flux. stars: diagonal Hodge stars. all: each of these, with larger margins",
-                          {.cells = kAll,
-                           .for_tetrahedra = "all|vertex|cell",
-                           .for_surfaces = "all|vertex|cell",
-                           .needs = {kForAccuracy}}),
+                          {.cells = kAll, .for_tetrahedra = "all|vertex|cell", .needs = {kForAccuracy}}),
     row<&Options::change>("change",
                           "Part of the mesh that may change. least: only the places that violate what `scheme` needs. "
                           "All else stays, bit for bit, unless many places are bad, or stay bad",

@@ -148,11 +148,12 @@ std::vector<double> ErrorJudge::squared(const Mesh& mesh) const {
   return settings_.hooks.solvers.squared_errors(mesh, settings_.options.scheme, settings_.executor());
 }
 
-double ErrorJudge::largest_ratio(const Mesh& mesh) const {
-  const std::vector<double> of_mesh = squared(mesh);
+double ErrorJudge::largest_ratio(const Mesh& mesh) const { return temper::largest_ratio(squared(mesh), of_input_); }
+
+double largest_ratio(const std::vector<double>& of_mesh, const std::vector<double>& of_input) {
   double largest = 0;
-  for (std::size_t i = 0; i < std::min(of_mesh.size(), of_input_.size()); ++i) {
-    largest = std::max(largest, of_mesh[i] == of_input_[i] ? 1 : of_mesh[i] / of_input_[i]);
+  for (std::size_t i = 0; i < std::min(of_mesh.size(), of_input.size()); ++i) {
+    largest = std::max(largest, of_mesh[i] == of_input[i] ? 1 : of_mesh[i] / of_input[i]);
   }
   return std::sqrt(largest);
 }

@@ -102,6 +102,8 @@ class ErrorJudge {
   std::vector<double> of_input_;
 };
 
+/// Returns the largest ratio of an error to the input's, of squared ones; 0 without errors.
+[[nodiscard]] double largest_ratio(const std::vector<double>& of_mesh, const std::vector<double>& of_input);
 /// Returns the root of the geometric mean of the schemes' squared errors; +∞ without errors.
 [[nodiscard]] double root_mean_square(const std::vector<double>& squared_errors);
 

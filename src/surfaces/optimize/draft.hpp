@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
-#include "base/descent.hpp"
 #include "surfaces/optimize/closest_point.hpp"
 #include "surfaces/optimize/lines.hpp"
 #include "temper/surfaces.hpp"
@@ -20,6 +19,11 @@ struct Draft {
   IdVector<VertexId, Track> tracks;         ///< Where a vertex may move
   IdVector<VertexId, std::uint8_t> weighs;  ///< Says whether its weight may change
   const Lines* lines = nullptr;             ///< For tracks that are lines
+
+  [[nodiscard]] std::array<WeightedPoint, 3> corners(std::size_t triangle) const {
+    const auto& [a, b, c] = triangles[triangle];
+    return {points[a], points[b], points[c]};
+  }
 };
 
 /// The direction of a; 0 if it has none.
@@ -51,47 +55,15 @@ struct TurnLimit {
 /// Takes vertices back to their first places, until no triangle folds over or becomes thin, and no edge turns too much.
 void go_back(Draft& draft, const IdVector<VertexId, WeightedPoint>& first, const TurnLimit& limit);
 
-/// The sum of the energies of all triangles (barrier.hpp), as Descent needs it. A vertex has three unknowns: two in its
-/// tangent plane, in units of its mean edge, and its weight, in units of the square of that. A vertex of a line has one
-/// unknown along it in place of two.
-class DraftEnergy {
- public:
-  static constexpr std::size_t kUnknowns = 3;
-  struct Value {
-    double lowered = 0;
-    std::vector<double> gradient;
+/// The triangles of an edge; on the boundary, one of them twice.
+struct DraftEdge {
+  struct Side {
+    std::size_t triangle, corner;  ///< The corner opposite the edge
   };
-
-  DraftEnergy(Draft& draft, double gamma);
-
-  [[nodiscard]] std::size_t n_elements() const { return draft_.triangles.size(); }
-  [[nodiscard]] const std::array<VertexId, 3>& corners(std::size_t e) const { return draft_.triangles[e]; }
-  /// The area along the first normal: a triangle that folds over has less than none.
-  [[nodiscard]] double room(std::size_t e) const { return dot(normal_of(e, draft_.points), normals_[e]); }
-  void place(const std::vector<double>& step, double part);
-  [[nodiscard]] bool is_inside() const;
-  [[nodiscard]] Value value() const;
-  /// Steps begin where the points are now.
-  void keep() { start_ = draft_.points; }
-
-  /// Lowers the energy. `steps`: the most.
-  void lower(int steps, const std::function<bool()>& must_stop);
-  /// Takes moved vertices to the closest points of a surface, or of their lines, or back to where they were at first
-  /// (go_back).
-  void project(const ClosestPoints& surface, const TurnLimit& limit);
-
- private:
-  [[nodiscard]] Vec3 normal_of(std::size_t e, const IdVector<VertexId, WeightedPoint>& points) const {
-    const auto& [a, b, c] = draft_.triangles[e];
-    return surfaces::normal_of(points[a].position(), points[b].position(), points[c].position());
-  }
-
-  Draft& draft_;
-  double gamma_;
-  IdVector<VertexId, WeightedPoint> first_, start_;
-  std::vector<Vec3> normals_;                         ///< Unit normals of the triangles at first
-  IdVector<VertexId, std::array<Vec3, 2>> tangents_;  ///< In units of the mean edge
-  IdVector<VertexId, double> areas_;                  ///< Square of that
+  std::array<Side, 2> sides;
+  bool is_boundary;
 };
+/// Ascending by the numbers of the ends. O(n log n).
+[[nodiscard]] std::vector<DraftEdge> edges_of(const std::vector<std::array<VertexId, 3>>& triangles);
 
 }  // namespace temper::surfaces

@@ -6,6 +6,7 @@
 #include "geometry/bounding_boxes.hpp"
 #include "optimize/options/settings.hpp"
 #include "optimize/run/end_of_run.hpp"
+#include "optimize/run/judge.hpp"
 #include "surfaces/mesh/surface_editor.hpp"
 #include "surfaces/optimize/run.hpp"
 #include "temper/detail/optimize_table.hpp"
@@ -92,6 +93,7 @@ Expected<SurfaceOptions> surface_options(const OptimizeOptions& options) {
   constexpr int kEditsPerTrial = 33;  // an edit moves the vertices of a patch again and again
   SurfaceOptions made;
   made.criterion = criterion_of(options);
+  made.scheme = options.scheme;
   made.surface_distance = options.surfaces.distance;
   made.crease_angle_deg = options.surfaces.crease_angle;
   made.may_move = options.unknowns != Unknowns::weights;
@@ -103,6 +105,11 @@ Expected<SurfaceOptions> surface_options(const OptimizeOptions& options) {
 }
 
 namespace {
+
+bool measures_errors(const SurfaceMesh& mesh, const SurfaceOptions& options) {
+  constexpr std::size_t kMostVertices = 20'000;  // as in the plane: every field is solved on every rival
+  return options.squared_errors && mesh.n_vertices() <= kMostVertices;
+}
 
 SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options) {
   SurfaceReport report;
@@ -117,6 +124,7 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
   run.start = options.started.value_or(begin);
 
   input.bad = run.bad(mesh);
+  if (measures_errors(mesh, options)) run.judged = &mesh;
   report.crease_edges = input.creases.size();
   const Lines lines(input.mesh, input.creases, options.may_slide);
   input.lines = &lines;
@@ -158,18 +166,27 @@ Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const Surf
   if (auto error = expect_options(options)) return *std::move(error);
   if (options.criterion == Criterion::well_centered) return run_for(mesh, solver, options);
   // A well-centered mesh meets all criteria, and its coefficients are larger than those of a run that ends before.
-  SurfaceOptions first = options;
-  first.criterion = Criterion::well_centered;
-  first.started = options.started.value_or(std::chrono::steady_clock::now());
+  SurfaceOptions both = options;
+  both.started = options.started.value_or(std::chrono::steady_clock::now());
+  both.criterion = Criterion::well_centered;
+  const SurfaceMesh input = mesh;
   SurfaceMesh good = mesh;
-  SurfaceReport report = run_for(good, solver, first);
-  if (violations(report.after, options.criterion) > 0) {
-    first.criterion = options.criterion;
-    return run_for(mesh, solver, first);
-  }
-  mesh = std::move(good);
+  SurfaceReport report = run_for(good, solver, both);
   report.violations_before = violations(report.before, options.criterion);
-  report.violations_after = 0;
+  report.violations_after = violations(report.after, options.criterion);
+  if (report.violations_after == 0 && (stopped_early(report.stopped) || !measures_errors(mesh, options))) {
+    mesh = std::move(good);
+    return report;
+  }
+  both.criterion = options.criterion;
+  SurfaceReport other = run_for(mesh, solver, both);
+  if (report.violations_after > 0) return other;
+  const auto errors = [&](const SurfaceMesh& of) { return options.squared_errors(of, options.scheme); };
+  const std::vector<double> before = errors(input);
+  const bool is_better =
+      other.violations_after > 0 || largest_ratio(errors(good), before) <= largest_ratio(errors(mesh), before);
+  if (!is_better) return other;
+  mesh = std::move(good);
   return report;
 }
 

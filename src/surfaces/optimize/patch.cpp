@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/sort_unique.hpp"
+#include "surfaces/optimize/draft_energy.hpp"
 #include "surfaces/optimize/flips.hpp"
 #include "temper/topology.hpp"
 

@@ -7,41 +7,21 @@
 #include "base/sort_unique.hpp"
 #include "feasibility/demand.hpp"
 #include "mesh/exact_range.hpp"
+#include "optimize/run/judge.hpp"
 #include "surfaces/mesh/surface_editor.hpp"
 #include "surfaces/optimize/flips.hpp"
 
 namespace temper::surfaces {
 namespace {
 
-constexpr int kRounds = 16, kSteps = 30;
 constexpr double kFirstGamma = 1, kGammaFactor = 0.72;
-constexpr double kSmallPart = 1e-3;  // a round that lowers the energy per triangle by less is the last
 constexpr double kSteepGamma = 0.4;  // factor from one descent of weights alone to the next
 // Edges of triangles that are not well-centered may turn more than creases by this angle [degrees]. With 0, two more
 // public meshes (bunny, screwdriver) keep bad triangles.
 constexpr double kMoreAtBad = 20;
-// Linear programs are for the last bad triangles: around many of them their regions meet, and cost minutes.
-constexpr std::size_t kFewBad = 100;
 
-/// Gives the mesh of a state the points of a draft, whose vertices go back to their first places until all is near the
-/// input. False if that is not enough.
-bool take(State& state, Draft& draft, const IdVector<VertexId, WeightedPoint>& first, Nearness::Known& known,
-          const Run& run) {
-  constexpr int kTries = 8;
-  for (int i = 0; i < kTries && !run.must_stop(); ++i) {
-    for (const VertexId v : state.mesh.vertices()) {
-      state.mesh.set_position(v, draft.points[v].position());
-      state.mesh.set_weight(v, draft.points[v].w);
-    }
-    const std::vector<VertexId> far = run.too_far(state, known);
-    if (far.empty()) return true;
-    for (const VertexId v : far) draft.points[v] = {first[v].x, first[v].y, first[v].z, draft.points[v].w};
-    go_back(draft, first, run.limit);
-  }
-  return false;
-}
+}  // namespace
 
-/// All of a mesh.
 Draft draft_of(const SurfaceMesh& mesh, const IdVector<VertexId, Track>& tracks, const Lines* lines,
                bool with_weights) {
   Draft draft;
@@ -55,29 +35,9 @@ Draft draft_of(const SurfaceMesh& mesh, const IdVector<VertexId, Track>& tracks,
   return draft;
 }
 
-/// All of a mesh, whose weights alone change.
 Draft weights_of(const SurfaceMesh& mesh) {
   return draft_of(mesh, IdVector<VertexId, Track>(mesh.n_vertices(), kHeld), nullptr, true);
 }
-
-double margin_of(const SurfaceMesh& mesh, TriangleId t) {
-  const TriangleQuality quality = triangle_quality(mesh, t);
-  return std::min(quality.min_h_over_l, quality.min_d_over_l);
-}
-
-double least_margin_of(const SurfaceMesh& mesh) {
-  double least = 1;
-  for (const TriangleId t : mesh.triangles()) least = std::min(least, margin_of(mesh, t));
-  return least;
-}
-
-std::size_t n_below(const SurfaceMesh& mesh, double margin) {
-  std::size_t n = 0;
-  for (const TriangleId t : mesh.triangles()) n += margin_of(mesh, t) < margin ? 1 : 0;
-  return n;
-}
-
-}  // namespace
 
 SurfaceMesh scaled(SurfaceMesh mesh, double factor) {
   for (const VertexId v : mesh.vertices()) {
@@ -141,6 +101,22 @@ void Run::offer(const State& found) {
   });
 }
 
+bool Run::take(State& state, Draft& draft, const IdVector<VertexId, WeightedPoint>& first,
+               Nearness::Known& known) const {
+  constexpr int kTries = 8;
+  for (int i = 0; i < kTries && !must_stop(); ++i) {
+    for (const VertexId v : state.mesh.vertices()) {
+      state.mesh.set_position(v, draft.points[v].position());
+      state.mesh.set_weight(v, draft.points[v].w);
+    }
+    const std::vector<VertexId> far = too_far(state, known);
+    if (far.empty()) return true;
+    for (const VertexId v : far) draft.points[v] = {first[v].x, first[v].y, first[v].z, draft.points[v].w};
+    go_back(draft, first, limit);
+  }
+  return false;
+}
+
 void Run::move_all(State& state, bool with_weights) {
   State best = state;
   double gamma = kFirstGamma;
@@ -153,7 +129,7 @@ void Run::move_all(State& state, bool with_weights) {
     energy.lower(kSteps, [this] { return must_stop(); });
     if (must_stop()) break;
     energy.project(nearness.input(), limit);
-    if (!take(state, draft, first, known, *this)) state.mesh = before;
+    if (!take(state, draft, first, known)) state.mesh = before;
     std::size_t flips = 0;
     if (options.may_flip) {
       const SurfaceMesh unflipped = state.mesh;
@@ -172,58 +148,6 @@ void Run::move_all(State& state, bool with_weights) {
     gamma = std::max(kLastGamma, gamma * kGammaFactor);
   }
   state = std::move(best);
-}
-
-std::optional<State> Run::lowered(const State& state, int steps, double least_margin, Nearness::Known& known) const {
-  const auto never = [this] { return must_stop(); };
-  Draft draft = draft_of(state.mesh, state.tracks, state.lines, true);
-  const IdVector<VertexId, WeightedPoint> first = draft.points;
-  DraftEnergy energy(draft, kLastGamma);
-  energy.lower(steps, never);
-  energy.project(nearness.input(), limit);
-  State next = state;
-  constexpr int kTries = 4;
-  for (int i = 0; i < kTries && take(next, draft, first, known, *this); ++i) {
-    Draft weights = weights_of(next.mesh);
-    for (const VertexId v : next.mesh.vertices()) weights.weighs[v] = draft.weighs[v];
-    DraftEnergy(weights, kLastGamma).lower(kSteps, never);
-    for (const VertexId v : next.mesh.vertices()) next.mesh.set_weight(v, weights.points[v].w);
-    std::vector<TriangleId> bad = cells_at_violations(next.mesh, options.criterion);
-    for (const TriangleId t : next.mesh.triangles()) {
-      if (margin_of(next.mesh, t) < least_margin) bad.push_back(t);
-    }
-    if (bad.empty()) return next;
-    for (const TriangleId t : bad) {
-      for (const VertexId v : next.mesh.corners(t)) draft.points[v] = first[v], draft.weighs[v] = 0;
-    }
-    go_back(draft, first, limit);
-  }
-  return std::nullopt;
-}
-
-void Run::polish(State& state) {
-  Nearness::Known known;
-  double least_margin = least_margin_of(state.mesh);
-  if (least_margin < options.margin && n_below(state.mesh, options.margin) <= kFewBad) {
-    std::optional<SurfaceMesh> changed = with_margin(state.mesh);
-    if (changed && bad(*changed) == 0 && least_margin_of(*changed) > least_margin) state.mesh = *std::move(changed);
-  }
-  // Small margins must not get smaller.
-  least_margin = std::min(options.margin, least_margin_of(state.mesh));
-  double least = energy_of(state.mesh, kLastGamma);
-  int steps = kSteps;
-  for (int round = 0; round < kRounds && steps >= 0 && !must_stop(); ++round) {
-    std::optional<State> next = lowered(state, steps, least_margin, known);
-    ++report.sweeps;
-    const double now = next ? energy_of(next->mesh, kLastGamma) : least;
-    if (now < least) state = *std::move(next);
-    record({.energy = now, .bad = state.bad, .flips = 0, .length_parameter = kLastGamma});
-    offer(state);
-    const double gain = least - now;
-    least = std::min(least, now);
-    if (gain > 0 && gain < kSmallPart * static_cast<double>(state.mesh.n_triangles())) break;
-    if (gain <= 0) steps = steps > 0 ? steps / 2 : -1;  // at last the weights alone
-  }
 }
 
 State Run::moved(const State& input, State best) {
@@ -252,17 +176,27 @@ State Run::best_of_limits(const State& input, State best, TurnLimit first) {
   return best;
 }
 
+double Run::rate(const State& state) {
+  if (judged == nullptr) return energy_of(state.mesh, kLastGamma) / static_cast<double>(state.mesh.n_triangles());
+  if (errors_of_input.empty()) errors_of_input = options.squared_errors(*judged, options.scheme);
+  return largest_ratio(options.squared_errors(result(state), options.scheme), errors_of_input);
+}
+
+State Run::better(State best, State other) {
+  if (best.bad != other.bad || best.bad > 0) return other.bad < best.bad ? std::move(other) : std::move(best);
+  const double of_best = must_stop() ? 0 : rate(best);
+  return !must_stop() && rate(other) < of_best ? std::move(other) : std::move(best);
+}
+
 State Run::best_of_starts(const State& input, const State& weighted, TurnLimit first) {
+  State best = best_of_limits(input, weighted, first);
   limit = first;
-  State best = weighted;
-  if (weighted.bad == 0 && input.bad > 0 && options.may_move) {
-    State found = moved(input, input);
-    if (found.bad == 0) best = std::move(found);
-  }
-  best = best_of_limits(input, std::move(best), first);
-  limit = first;
-  if (best.bad == 0 && input.bad > 0 && options.may_move) polish(best);
-  return best;
+  if (best.bad > 0 || input.bad == 0 || !options.may_move) return best;
+  best = polished(std::move(best));
+  if (weighted.bad > 0) return best;
+  State found = moved(input, input);
+  if (found.bad == 0) found = polished(std::move(found));
+  return better(std::move(best), std::move(found));
 }
 
 State Run::best_of_tracks(State input, State weighted, TurnLimit first) {
@@ -270,9 +204,7 @@ State Run::best_of_tracks(State input, State weighted, TurnLimit first) {
   if (input.bad == 0 || !options.may_slide) return best;
   for (Track& track : input.tracks) track = track == kFree ? kFree : kHeld;
   weighted.tracks = input.tracks;
-  State held = best_of_starts(input, weighted, first);
-  const bool has_less_energy = held.bad == 0 && energy_of(held.mesh, kLastGamma) < energy_of(best.mesh, kLastGamma);
-  return held.bad < best.bad || (held.bad == best.bad && has_less_energy) ? held : best;
+  return better(std::move(best), best_of_starts(input, weighted, first));
 }
 
 void Run::find_weights(State& state) const {
@@ -283,7 +215,7 @@ void Run::find_weights(State& state) const {
     for (const VertexId v : changed.vertices()) changed.set_weight(v, draft.points[v].w);
     take_if_better(state, std::move(changed));
   }
-  if (state.bad == 0 || state.bad > kFewBad || must_stop()) return;
+  if (state.bad == 0 || state.bad > kFewForPrograms || must_stop()) return;
   if (std::optional<SurfaceMesh> changed = with_margin(state.mesh)) take_if_better(state, *std::move(changed));
 }
 

@@ -6,8 +6,10 @@
 //
 // Two starts compete: moves alone, with weights at the end; and moves with weights. At first the surface must not turn
 // more at its edges than a limit. As long as bad triangles are left, all begins again, with a wider limit and without.
-// If none is left, rounds lower the energy, so that margins and shapes get better. If vertices slide, the whole run is
-// repeated with these vertices held, and the better result counts.
+// If none is left, rounds lower the accuracy energy of the scheme (polish.cpp). Where weights alone suffice, they are
+// polished too. If vertices slide, the whole run is repeated with these vertices held. Of all results, the one counts
+// on which measured errors of the scheme are the least, over those of the input; without errors, that of the least
+// energy.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +20,7 @@
 #include <optional>
 #include <vector>
 
-#include "surfaces/optimize/draft.hpp"
+#include "surfaces/optimize/draft_energy.hpp"
 #include "surfaces/optimize/nearness.hpp"
 #include "temper/surfaces.hpp"
 
@@ -33,6 +35,7 @@ struct State {
   Edges creases;                         ///< Ascending
   std::size_t bad = 0;                   ///< Number of cells at violations
   std::size_t repairs = 0;               ///< Number of edits
+  double gain = 0;                       ///< Part of the accuracy energy by which the last round lowered it
 };
 
 [[nodiscard]] Turns turns_of(const SurfaceMesh& mesh, double sharp_deg);
@@ -43,13 +46,24 @@ struct State {
 inline constexpr double kLastGamma = 0.01;  // of all rounds
 /// The energy of a mesh.
 [[nodiscard]] double energy_of(const SurfaceMesh& mesh, double gamma);
+/// All of a mesh.
+[[nodiscard]] Draft draft_of(const SurfaceMesh& mesh, const IdVector<VertexId, Track>& tracks, const Lines* lines,
+                             bool with_weights);
+/// All of a mesh, whose weights alone change.
+[[nodiscard]] Draft weights_of(const SurfaceMesh& mesh);
+
+inline constexpr int kRounds = 16, kSteps = 30;
+// Linear programs are for the last bad triangles: around many of them their regions meet, and cost minutes.
+inline constexpr std::size_t kFewForPrograms = 100;
 
 struct Run {
   const SurfaceOptions& options;
   const Nearness& nearness;
   LpSolver& solver;
   SurfaceReport& report;
-  double unit = 1;  ///< The user's length of one unit, a power of two
+  double unit = 1;                           ///< The user's length of one unit, a power of two
+  const SurfaceMesh* judged = nullptr;       ///< The input, if measured errors decide
+  std::vector<double> errors_of_input = {};  ///< Empty: not measured yet
   TurnLimit limit = {};
   std::size_t trials = 0;           ///< Number of edits since the last one that helped
   std::optional<State> shown = {};  ///< For the listener, if there is one
@@ -72,7 +86,11 @@ struct Run {
 
   /// The best of starts whose vertices slide along lines, if they may, and of starts whose vertices stay there.
   [[nodiscard]] State best_of_tracks(State input, State weighted, TurnLimit first);
-  /// The best of runs with wider and wider limits, and of moves where weights alone suffice; then polished.
+  /// The better of two results: with fewer bad cells; if there are none, by rate().
+  [[nodiscard]] State better(State best, State other);
+  /// The largest ratio of an error to the input's; without errors, the mean energy of a triangle.
+  [[nodiscard]] double rate(const State& state);
+  /// The best of runs with wider and wider limits, and of moves where weights alone suffice; all polished.
   [[nodiscard]] State best_of_starts(const State& input, const State& weighted, TurnLimit first);
   /// The best of runs with wider and wider limits, or `best` if it is better.
   [[nodiscard]] State best_of_limits(const State& input, State best, TurnLimit first);
@@ -82,11 +100,16 @@ struct Run {
   void move_all(State& state, bool with_weights);
   /// Weights by descents, and for few bad cells by a linear program, if they leave fewer bad cells.
   void find_weights(State& state) const;
-  /// Rounds that lower the energy of a mesh without bad cells, as long as none becomes bad.
-  void polish(State& state);
-  /// One of these rounds; nothing if it fails, or if a margin is less than the least one.
-  [[nodiscard]] std::optional<State> lowered(const State& state, int steps, double least_margin,
-                                             Nearness::Known& known) const;
+  /// Gives the mesh of a state the points of a draft, whose vertices go back to their first places until all is near
+  /// the input. False if that is not enough.
+  [[nodiscard]] bool take(State& state, Draft& draft, const IdVector<VertexId, WeightedPoint>& first,
+                          Nearness::Known& known) const;
+  /// Rounds that lower the accuracy energy of a mesh without bad cells, as long as none becomes bad. The mesh stays as
+  /// it is if its measured errors are smaller.
+  [[nodiscard]] State polished(State state);
+  /// One of these rounds, with its gain; nothing if it fails, or if a margin is less than the least one.
+  [[nodiscard]] std::optional<State> lowered(const State& state, const AccuracyModel& model, int steps,
+                                             double least_margin, Nearness::Known& known) const;
   /// The mesh with weights by a linear program for the margin of the options; nothing if that fails.
   [[nodiscard]] std::optional<SurfaceMesh> with_margin(SurfaceMesh mesh) const;
   void take_if_better(State& state, SurfaceMesh changed) const;

@@ -1,11 +1,15 @@
 // Errors of solvers on curved surfaces: the numbers of the plane in the plane, exact linear fields, order 2.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "errors/fields.hpp"
+#include "optimize/run/judge.hpp"
 #include "support/surface_meshes.hpp"
+#include "temper/detail/lp.hpp"
 #include "temper/generate.hpp"
+#include "temper/solvers.hpp"
 #include "temper/surface_errors.hpp"
 
 namespace temper::surfaces {
@@ -103,6 +107,53 @@ TEST(SurfaceErrors, DoNotChangeWithPlaceOrUnit) {
   ASSERT_TRUE(ratios);
   EXPECT_EQ(geometric_mean(*ratios).poisson.l2, 1);
   EXPECT_FALSE(error_ratios(a, b)) << "another frame";
+}
+
+TEST(SurfaceErrors, SquaredErrorsAreThoseOfTheScheme) {
+  const SurfaceMesh mesh = test::mesh_of(test::torus(16, 8));
+  const ErrorReport report = measured(mesh, {.fields = {"chosen"}});
+  const std::pair<Scheme, std::vector<std::string_view>> expected[] = {
+      {Scheme::vertex, {"poisson.l2", "poisson.max"}},
+      {Scheme::cell, {"flux.l2", "flux.max"}},
+      {Scheme::all, {"poisson.l2", "poisson.max", "flux.l2", "flux.max"}},
+      {Scheme::stars, {"star0.l2", "star0.max", "star1.l2", "star1.max", "star2.l2", "star2.max"}}};
+  for (const auto& [scheme, keys] : expected) {
+    const std::vector<double> squared = squared_solver_errors(mesh, scheme);
+    ASSERT_EQ(squared.size(), keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const auto measures = error_measures();
+      const auto measure =
+          std::find_if(measures.begin(), measures.end(), [&](const ErrorMeasure& m) { return m.key == keys[i]; });
+      double sum = 0;
+      for (const FieldErrors& row : report.fields) sum += measure->of(row.errors) * measure->of(row.errors);
+      EXPECT_EQ(squared[i], sum) << keys[i];
+    }
+  }
+}
+
+TEST(SurfaceErrors, OfTheSchemeAreNotLargerWhereTheyDecide) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Rng rng(seed);
+    test::SurfaceArrays arrays = test::torus(16, 8);
+    for (Vec3& p : arrays.points) p.z += rng.uniform(-0.02, 0.02);
+    const SurfaceMesh input = test::mesh_of(arrays);
+    for (const Scheme scheme : {Scheme::all, Scheme::vertex, Scheme::cell, Scheme::stars}) {
+      SurfaceOptions options;
+      options.surface_distance = 0.02;
+      options.scheme = scheme, options.criterion = criterion_of(scheme);
+      SurfaceMesh with = input, without = input;
+      const auto by_energy = optimize(without, *clp_solver(), options);
+      options.squared_errors = squared_errors();
+      const auto by_errors = optimize(with, *clp_solver(), options);
+      ASSERT_TRUE(by_energy && by_errors);
+      ASSERT_GT(by_energy->violations_before, 0U);
+      EXPECT_LE(by_errors->violations_after, by_energy->violations_after);
+      if (by_errors->violations_after + by_energy->violations_after > 0) continue;
+      const std::vector<double> before = squared_solver_errors(input, scheme);
+      EXPECT_LE(largest_ratio(squared_solver_errors(with, scheme), before),
+                largest_ratio(squared_solver_errors(without, scheme), before));
+    }
+  }
 }
 
 TEST(SurfaceErrors, BadInputIsNamed) {
