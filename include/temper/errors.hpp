@@ -196,8 +196,8 @@ struct ErrorMeasure {
 [[nodiscard]] Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before);
 
 /// The squared errors of Poisson problems at vertices (Scheme::vertex), of two-point flux (Scheme::cell), of both
-/// (Scheme::all), or of stars (Scheme::stars): in L2 and at most, of each. They are sums over the chosen fields, because
-/// a grid solves some fields exactly. Empty if the mesh cannot be measured. O(n^1.5).
+/// (Scheme::all), or of stars (Scheme::stars): in L2 and at most, of each. They are sums over the chosen fields,
+/// because a grid solves some fields exactly. Empty if the mesh cannot be measured. O(n^1.5).
 [[nodiscard]] std::vector<double> squared_solver_errors(const Mesh& mesh, Scheme scheme, Executor* executor = nullptr);
 
 }  // namespace temper

@@ -28,7 +28,7 @@ namespace temper::tets {
 
 namespace temper::surfaces {
 
-/// For SurfaceOptions, by Eigen. Empty if the build lacks it.
+/// Returns SurfaceOptions::squared_errors, which uses Eigen. Empty if the build lacks it.
 [[nodiscard]] SquaredErrors squared_errors();
 
 }  // namespace temper::surfaces

@@ -33,7 +33,7 @@ struct ErrorReport : temper::ErrorReport {
 /// Returns the ratio of errors, field by field, as error_ratios() of the plane does.
 [[nodiscard]] Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before);
 
-/// As temper::squared_solver_errors.
+/// Does for a surface what temper::squared_solver_errors does in the plane.
 [[nodiscard]] std::vector<double> squared_solver_errors(const SurfaceMesh& mesh, Scheme scheme);
 
 }  // namespace temper::surfaces

@@ -341,11 +341,12 @@ struct BestSoFar {
   const IdVector<VertexId, VertexId>& vertices;  ///< Numbers of the vertices, as in SurfaceReport::vertices
 };
 
+/// Squared errors of a scheme on a mesh, each of another norm; empty if there are none.
 using SquaredErrors = std::function<std::vector<double>(const SurfaceMesh& mesh, Scheme scheme)>;
 
 struct SurfaceOptions {
-  /// Condition on the mesh. A run for another one than well_centered tries that one too, because its coefficients are
-  /// larger. Once a mesh meets it, up to 16 rounds lower the accuracy energy of `scheme`.
+  /// Condition on the mesh. A run for another criterion also tries well_centered, because its coefficients are larger.
+  /// Once a mesh meets it that did not before, up to 16 rounds lower the accuracy energy of `scheme`.
   Criterion criterion = Criterion::well_centered;
   Scheme scheme = Scheme::all;  ///< Scheme whose errors are lowered
   double margin = 0.01;         ///< Margin t of the final weights, in (0, 1/2)
@@ -363,8 +364,8 @@ struct SurfaceOptions {
   bool may_slide = false;
   /// Repairs end after this number of edits in a row that do not help. Usually fewer than one edit of 20 helps.
   int repair_trials = 600;
-  /// Squared errors of a scheme on a mesh; empty if there are none. If several meshes meet the criterion, up to 20,000
-  /// vertices the one counts whose errors are the least (temper/solvers.hpp). Absent: the one of the least energy.
+  /// Squared errors of a scheme (temper/solvers.hpp). Up to 20,000 vertices they choose among meshes that meet the
+  /// criterion: the largest ratio to the input's shall be the least. Otherwise the mean energy of a triangle chooses.
   SquaredErrors squared_errors = {};
   double time_limit = 0;                       ///< Time limit of the run [s]; 0: none
   std::function<bool()> must_stop = {};        ///< If it says yes, the run ends with the best mesh so far

@@ -102,7 +102,7 @@ class ErrorJudge {
   std::vector<double> of_input_;
 };
 
-/// Returns the largest ratio of an error to the input's, of squared ones; 0 without errors.
+/// Returns the root of the largest ratio of squared errors to the input's; 0 if either has none.
 [[nodiscard]] double largest_ratio(const std::vector<double>& of_mesh, const std::vector<double>& of_input);
 /// Returns the root of the geometric mean of the schemes' squared errors; +∞ without errors.
 [[nodiscard]] double root_mean_square(const std::vector<double>& squared_errors);

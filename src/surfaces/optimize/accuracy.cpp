@@ -13,7 +13,7 @@ namespace temper::surfaces {
 namespace {
 
 constexpr int kSmoothings = 10;
-// Below, a margin is not certain in doubles.
+// Smaller margins are not certain in doubles.
 constexpr double kLeastMargin = 1e-9;
 
 /// The edges of equilateral triangles of the mean area around each vertex, averaged with the neighbors'.

@@ -1,4 +1,4 @@
-// A surface, or a part of it, whose vertices move in their tangent planes and come back to the input surface.
+// A surface, or a part of it, while its vertices move; and what steps may do to its triangles.
 #pragma once
 
 #include <algorithm>
@@ -55,7 +55,7 @@ struct TurnLimit {
 /// Takes vertices back to their first places, until no triangle folds over or becomes thin, and no edge turns too much.
 void go_back(Draft& draft, const IdVector<VertexId, WeightedPoint>& first, const TurnLimit& limit);
 
-/// The triangles of an edge; on the boundary, one of them twice.
+/// The two triangles of an edge; on the boundary, its triangle twice.
 struct DraftEdge {
   struct Side {
     std::size_t triangle, corner;  ///< The corner opposite the edge

@@ -8,8 +8,7 @@
 namespace temper::surfaces {
 namespace {
 
-// Steps that lower the mean energy of a triangle, or with floors a part of the energy, by less than this are not worth
-// their time.
+// A step must lower the mean energy of a triangle by this, or the accuracy energy by this part.
 constexpr double kSmallGain = 1e-5;
 
 /// Two unit vectors across a normal.

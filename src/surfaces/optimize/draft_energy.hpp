@@ -26,13 +26,13 @@ class DraftEnergy {
   };
 
   DraftEnergy(Draft& draft, double gamma);
-  /// Corners of triangles without a floor stay.
+  /// Holds the corners of triangles without a floor, in `draft` too.
   DraftEnergy(Draft& draft, const AccuracyModel& model);
 
   [[nodiscard]] std::size_t n_elements() const { return draft_.triangles.size(); }
   [[nodiscard]] const std::array<VertexId, 3>& corners(std::size_t e) const { return draft_.triangles[e]; }
-  /// The area along the first normal, over the first area: a triangle that folds over has less than none. With floors,
-  /// at most the margin above them.
+  /// The area along the first normal, over the first area; negative if the triangle folds over. With floors, at most
+  /// the margin above the floor.
   [[nodiscard]] double room(std::size_t e) const;
   void place(const std::vector<double>& step, double part);
   [[nodiscard]] bool is_inside() const;
@@ -60,7 +60,7 @@ class DraftEnergy {
   std::optional<DraftAccuracy> accuracy_;
   std::vector<Vec3> normals_;                         ///< Normals of the triangles at first, over their squares
   IdVector<VertexId, std::array<Vec3, 2>> tangents_;  ///< In units of the mean edge
-  IdVector<VertexId, double> areas_;                  ///< Square of that
+  IdVector<VertexId, double> areas_;                  ///< Squares of the mean edges
 };
 
 }  // namespace temper::surfaces

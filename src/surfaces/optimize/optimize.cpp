@@ -1,5 +1,6 @@
 // optimize(): checks the options, marks creases, and compares runs.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "base/text.hpp"
@@ -166,20 +167,20 @@ Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const Surf
   if (auto error = expect_options(options)) return *std::move(error);
   if (options.criterion == Criterion::well_centered) return run_for(mesh, solver, options);
   // A well-centered mesh meets all criteria, and its coefficients are larger than those of a run that ends before.
-  SurfaceOptions both = options;
-  both.started = options.started.value_or(std::chrono::steady_clock::now());
-  both.criterion = Criterion::well_centered;
+  SurfaceOptions of_run = options;
+  of_run.started = options.started.value_or(std::chrono::steady_clock::now());
+  of_run.criterion = Criterion::well_centered;
   const SurfaceMesh input = mesh;
   SurfaceMesh good = mesh;
-  SurfaceReport report = run_for(good, solver, both);
+  SurfaceReport report = run_for(good, solver, of_run);
   report.violations_before = violations(report.before, options.criterion);
   report.violations_after = violations(report.after, options.criterion);
   if (report.violations_after == 0 && (stopped_early(report.stopped) || !measures_errors(mesh, options))) {
     mesh = std::move(good);
     return report;
   }
-  both.criterion = options.criterion;
-  SurfaceReport other = run_for(mesh, solver, both);
+  of_run.criterion = options.criterion;
+  SurfaceReport other = run_for(mesh, solver, of_run);
   if (report.violations_after > 0) return other;
   const auto errors = [&](const SurfaceMesh& of) { return options.squared_errors(of, options.scheme); };
   const std::vector<double> before = errors(input);
@@ -187,6 +188,7 @@ Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const Surf
       other.violations_after > 0 || largest_ratio(errors(good), before) <= largest_ratio(errors(mesh), before);
   if (!is_better) return other;
   mesh = std::move(good);
+  report.seconds = other.seconds;
   return report;
 }
 

@@ -31,19 +31,19 @@ std::size_t n_below(const SurfaceMesh& mesh, double margin) {
 
 std::optional<State> Run::lowered(const State& state, const AccuracyModel& model, int steps, double least_margin,
                                   Nearness::Known& known) const {
-  const auto never = [this] { return must_stop(); };
+  const auto stop = [this] { return must_stop(); };
   Draft draft = draft_of(state.mesh, state.tracks, state.lines, true);
   const IdVector<VertexId, WeightedPoint> first = draft.points;
   DraftEnergy energy(draft, model);
   const double before = energy.value().lowered;
-  energy.lower(steps, never);
+  energy.lower(steps, stop);
   energy.project(nearness.input(), limit);
   State next = state;
   constexpr int kTries = 4;
   for (int i = 0; i < kTries && take(next, draft, first, known); ++i) {
     Draft weights = weights_of(next.mesh);
     for (const VertexId v : next.mesh.vertices()) weights.weighs[v] = draft.weighs[v];
-    DraftEnergy(weights, model).lower(kSteps, never);
+    DraftEnergy(weights, model).lower(kSteps, stop);
     for (const VertexId v : next.mesh.vertices()) next.mesh.set_weight(v, weights.points[v].w);
     std::vector<TriangleId> bad = cells_at_violations(next.mesh, options.criterion);
     for (const TriangleId t : next.mesh.triangles()) {
@@ -64,8 +64,8 @@ std::optional<State> Run::lowered(const State& state, const AccuracyModel& model
 
 State Run::polished(State state) {
   const State given = state;
-  // Above, the barrier moves vertices more than the surface lets them come back.
-  constexpr double kBarrierMargin = 2;  // of the margin of the options
+  // The margin of the barrier, in margins of the options. With more, projection to the surface takes more back.
+  constexpr double kBarrierMargin = 2;
   AccuracyOptions accuracy;
   accuracy.margin = kBarrierMargin * options.margin;
   const AccuracyModel model = accuracy_model(accuracy, options.scheme, Star::one);

@@ -179,7 +179,8 @@ State Run::best_of_limits(const State& input, State best, TurnLimit first) {
 double Run::rate(const State& state) {
   if (judged == nullptr) return energy_of(state.mesh, kLastGamma) / static_cast<double>(state.mesh.n_triangles());
   if (errors_of_input.empty()) errors_of_input = options.squared_errors(*judged, options.scheme);
-  return largest_ratio(options.squared_errors(result(state), options.scheme), errors_of_input);
+  const std::vector<double> errors = options.squared_errors(result(state), options.scheme);
+  return errors.empty() ? HUGE_VAL : largest_ratio(errors, errors_of_input);
 }
 
 State Run::better(State best, State other) {

@@ -6,9 +6,9 @@
 //
 // Two starts compete: moves alone, with weights at the end; and moves with weights. At first the surface must not turn
 // more at its edges than a limit. As long as bad triangles are left, all begins again, with a wider limit and without.
-// If none is left, rounds lower the accuracy energy of the scheme (polish.cpp). Where weights alone suffice, they are
-// polished too. If vertices slide, the whole run is repeated with these vertices held. Of all results, the one counts
-// on which measured errors of the scheme are the least, over those of the input; without errors, that of the least
+// If none is left, rounds lower the accuracy energy of the scheme (polish.cpp). If weights alone suffice, that mesh is
+// polished too. If vertices slide, the whole run is repeated with these vertices held. The run returns the
+// result with the least errors of the scheme, relative to the input; without measured errors, that with the least
 // energy.
 #pragma once
 
@@ -46,10 +46,10 @@ struct State {
 inline constexpr double kLastGamma = 0.01;  // of all rounds
 /// The energy of a mesh.
 [[nodiscard]] double energy_of(const SurfaceMesh& mesh, double gamma);
-/// All of a mesh.
+/// A draft of the whole mesh.
 [[nodiscard]] Draft draft_of(const SurfaceMesh& mesh, const IdVector<VertexId, Track>& tracks, const Lines* lines,
                              bool with_weights);
-/// All of a mesh, whose weights alone change.
+/// A draft of the whole mesh, in which only weights change.
 [[nodiscard]] Draft weights_of(const SurfaceMesh& mesh);
 
 inline constexpr int kRounds = 16, kSteps = 30;
@@ -63,7 +63,7 @@ struct Run {
   SurfaceReport& report;
   double unit = 1;                           ///< The user's length of one unit, a power of two
   const SurfaceMesh* judged = nullptr;       ///< The input, if measured errors decide
-  std::vector<double> errors_of_input = {};  ///< Empty: not measured yet
+  std::vector<double> errors_of_input = {};  ///< Empty: not measured
   TurnLimit limit = {};
   std::size_t trials = 0;           ///< Number of edits since the last one that helped
   std::optional<State> shown = {};  ///< For the listener, if there is one
