@@ -303,7 +303,10 @@ class Placement {
       const Vec3 inwards = side == 0 ? normal : -1.0 * normal;
       const double size = size_at(middle, area);
       for (const double height : kHeights) {
-        if (take(surface_.below(middle + (height * size) * inwards), middle, area, i)) break;
+        if (!take(surface_.below(middle + (height * size) * inwards), middle, area, i)) continue;
+        // Towards an end of the piece, so that the next row is that of equilateral triangles.
+        front_.back().direction = -1.0 * surface_.direction(front_.back().at, a);
+        break;
       }
     }
   }

@@ -142,6 +142,18 @@ TEST(Mesher, EdgesHaveTheSizeAskedForAndTrianglesTheirNumber) {
   }
 }
 
+TEST(Mesher, RowsOfPointsAreThoseOfEquilateralTriangles) {
+  for (const double turn : {0.0, 0.3}) {
+    Outline turned = square();
+    for (Vec2& p : turned.points)
+      p = {std::cos(turn) * p.x - std::sin(turn) * p.y, std::sin(turn) * p.x + std::cos(turn) * p.y};
+    MesherOptions options = sized(0.02);
+    options.optimize.reset();
+    const Mesh mesh = mesh_of(turned, options).mesh;
+    EXPECT_LT(10 * count_bad(mesh), mesh.n_triangles());  // where fronts meet
+  }
+}
+
 TEST(Mesher, ALargeSizeMakesFewTriangles) {
   EXPECT_LE(mesh_of(square(), sized(100)).mesh.n_triangles(), 8u);
   EXPECT_LE(mesh_of(wedge(60), sized(100)).mesh.n_triangles(), 8u);
