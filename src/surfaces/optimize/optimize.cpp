@@ -175,18 +175,20 @@ Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const Surf
   SurfaceReport report = run_for(good, solver, of_run);
   report.violations_before = violations(report.before, options.criterion);
   report.violations_after = violations(report.after, options.criterion);
-  if (report.violations_after == 0 && (stopped_early(report.stopped) || !measures_errors(mesh, options))) {
+  const bool decides = measures_errors(mesh, options) && !stopped_early(report.stopped);
+  const bool is_enough = report.violations_after == 0 || stopped_early(report.stopped);
+  if (!decides && is_enough && report.violations_after < report.violations_before) {
     mesh = std::move(good);
     return report;
   }
   of_run.criterion = options.criterion;
   SurfaceReport other = run_for(mesh, solver, of_run);
-  if (report.violations_after > 0) return other;
-  const auto errors = [&](const SurfaceMesh& of) { return options.squared_errors(of, options.scheme); };
-  const std::vector<double> before = errors(input);
-  const bool is_better =
-      other.violations_after > 0 || largest_ratio(errors(good), before) <= largest_ratio(errors(mesh), before);
-  if (!is_better) return other;
+  if (other.violations_after <= report.violations_after) {
+    if (other.violations_after > 0 || !decides || stopped_early(other.stopped)) return other;
+    const auto errors = [&](const SurfaceMesh& of) { return options.squared_errors(of, options.scheme); };
+    const std::vector<double> before = errors(input);
+    if (largest_ratio(errors(mesh), before) < largest_ratio(errors(good), before)) return other;
+  }
   mesh = std::move(good);
   report.seconds = other.seconds;
   return report;

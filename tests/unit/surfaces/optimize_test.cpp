@@ -975,6 +975,27 @@ TEST(SurfaceOptimize, TargetsOfDualsHaveTheCoefficientsOfWellCenteredMeshes) {
   }
 }
 
+TEST(SurfaceOptimize, AStopKeepsWhatTheWellCenteredRunHasReached) {
+  const SurfaceMesh input = shaken_torus(0.35, 4);
+  const auto negative = [](const SurfaceMesh& mesh) { return violated_edges(mesh, Criterion::coefficients).size(); };
+  bool has_reached_some = false;
+  for (const int last : {20, 100, 300, 1000}) {
+    int asked = 0;
+    SurfaceOptions options;
+    options.surface_distance = 0.02;
+    options.must_stop = [&] { return ++asked > last; };
+    SurfaceMesh all = input, one = input;
+    static_cast<void>(optimized(all, options));
+    options.criterion = Criterion::coefficients;
+    asked = 0;
+    const SurfaceReport report = optimized(one, options);
+    has_reached_some = has_reached_some || (negative(all) < negative(input) && report.stopped == Stopped::canceled);
+    EXPECT_LE(negative(one), std::min(negative(all), negative(input)));
+    EXPECT_EQ(report.violations_after, negative(one));
+  }
+  EXPECT_TRUE(has_reached_some);
+}
+
 TEST(SurfaceOptimize, TargetsOfDualsAreMet) {
   for (const Criterion criterion : {Criterion::coefficients, Criterion::distances}) {
     SurfaceMesh mesh = shaken_torus(0.35, 4);
