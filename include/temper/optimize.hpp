@@ -269,12 +269,11 @@ struct PaperSwitches {
   InsertionPlace insertion_place = InsertionPlace::best;
 
   /// Energy of the first sweeps, before `energy`: "E_∂T, then switching to E_BP" (§7). Both energies use the same γ and
-  /// h°. Absent: `energy` from the first sweep on, with one exception. Six sweeps with E_ODT, whose steps may cross
-  /// flips, come first under these conditions:
+  /// h°. Absent: `energy` from the first sweep on, with one exception. Ten sweeps with E_ODT come first under these
+  /// conditions:
   ///   - the accuracy objective is for one scheme
   ///   - the mesh lies in the plane and has no weights
   ///   - steps are Newton steps, with flips at once
-  /// With positions alone, or least lengths, they are ten sweeps with FlipLimit::after.
   std::optional<EnergyKind> first_energy = {};
   int switch_at = 20;  ///< First sweep that lowers `energy`; earlier if the first energy has converged
   double tolerance = 1e-5;

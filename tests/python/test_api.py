@@ -24,7 +24,7 @@ ELSEWHERE = {
     **dict.fromkeys(["table_of", "table_for_tetrahedra", "words_of", "report_table", "rows_of_part", "view_of", "owned_value", "field_list",
                      "field_type", "field_value", "list_type"], "temper.types has the classes that follow from the tables"),
     "name": "enums are their names", "energy_info": "energies() lists the rows", "find_energy": "as energy_info",
-    "objective_of": "help(OptimizeOptions)", "make_discretization_error": "optimize does it", "squared_solver_errors": "as make_discretization_error", "solvers": "as make_discretization_error", "problem_warnings": "optimize warns", "wants_error_model": "as make_discretization_error", "scheme_weights": "as objective_of",
+    "objective_of": "help(OptimizeOptions)", "make_discretization_error": "optimize does it", "squared_solver_errors": "as make_discretization_error", "solvers": "as make_discretization_error", "squared_errors": "as make_discretization_error", "problem_warnings": "optimize warns", "wants_error_model": "as make_discretization_error", "scheme_weights": "as objective_of",
     "targets": "help(optimize)", "with_coefficient": "dec_operators does it", "efforts": "as targets", "keeps": "as targets", "option_groups": "help(OptimizeOptions)", "option_rows": "help(OptimizeOptions)", "find_option": "as option_groups", "check_option": "optimize checks", "check_kept": "optimize checks", "check_cells": "optimize checks", "fits": "as check_cells", "check_target": "optimize checks",
     "check_options": "as check_option", "option_text": "repr", "option_range_text": "as option_groups",
     "tetrahedron_energy": "the gallery draws it", "missing_need": "optimize warns", "spell_options": "texts are spelled", "stopped_early": "OptimizeReport.stopped",

@@ -120,8 +120,7 @@ TEST(Accuracy, OfOneSchemeBeginsWithSweepsOfOdtWhereThereAreNoWeights) {
   };
   OptimizeOptions said, stars, at_once, all;
   for (OptimizeOptions* o : {&said, &stars, &at_once}) o->scheme = Scheme::stars;
-  said.paper.first_energy = EnergyKind::ODT, said.paper.switch_at = 6;
-  said.paper.flip_limit = FlipLimit::unlimited;
+  said.paper.first_energy = EnergyKind::ODT, said.paper.switch_at = 10;
   at_once.paper.first_energy = EnergyKind::ODT, at_once.paper.switch_at = 0;
   EXPECT_EQ(made_by(input, stars), made_by(input, said));
   EXPECT_NE(made_by(input, stars), made_by(input, at_once));
