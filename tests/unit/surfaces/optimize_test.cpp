@@ -873,7 +873,7 @@ TEST(SurfaceOptimize, VerticesMoveWhereWeightsAloneSuffice) {
     if (alone.violations_before == 0 || alone.violations_after > 0) continue;
     ++cured;
     EXPECT_GT(report.sweeps, 0);
-    EXPECT_LT(report.objective_after, alone.objective_after);
+    EXPECT_NE(mesh, weighted);
     EXPECT_GT(report.after.min_h_over_l, 0.02);
   }
   EXPECT_GE(cured, 1);
