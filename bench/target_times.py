@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Divides the time of each target by that of the default, and by that of an older release.
+"""Divides the time of each target by the time of the default, and of an older release.
 
     bench/target_times.py TEMPER [--against OLD] [--sets public,tetrahedra,1000,100000] [--limit 300]
 
-TEMPER and OLD are the programs of two release builds. The sets are the public meshes of triangles and of tetrahedra in the
-folder that TEMPER_SHARED names (default: ../shared), and random points by their number. All runs use one thread, and the
-builds run in turn. Times are processor seconds. Each run is repeated three times, and the smallest time counts. Runs over
-2 s run once. A ratio divides the sums over the meshes. The geometric mean of the ratios follows in brackets, and then the number
-of meshes that both runs finished. Runs that need more than --limit seconds are left out.
+TEMPER and OLD are the programs of two release builds. A set is `public` (meshes of triangles), `tetrahedra`, or a number of
+random points. The folder TEMPER_SHARED (default: ../shared) has the meshes. The builds run in turn, on one thread. Times are
+processor seconds: the least of three runs, or one run if it takes over 2 s. The script leaves out runs over --limit seconds.
+A ratio divides the sums over the meshes. In brackets is the geometric mean of the ratios. The last numbers count the meshes
+that both runs finished.
 """
 
 import argparse

@@ -51,10 +51,11 @@ class DecBuilder {
  public:
   DecBuilder(const Mesh& mesh, Measures measures) : mesh_(mesh), measures_(std::move(measures)) {}
   DecComplex build();
-  /// Without d0 and d1.
+  /// Builds all but d0 and d1.
   DecComplex build_measures();
 
  private:
+  void add_measures();
   void triangles();
   void add_edge(HalfedgeId h);
   [[nodiscard]] double height(HalfedgeId h, double length) const;
@@ -69,13 +70,19 @@ class DecBuilder {
 
 template <class Measures>
 DecComplex DecBuilder<Measures>::build() {
-  c_ = build_measures();
+  add_measures();
   incidence();
   return std::move(c_);
 }
 
 template <class Measures>
 DecComplex DecBuilder<Measures>::build_measures() {
+  add_measures();
+  return std::move(c_);
+}
+
+template <class Measures>
+void DecBuilder<Measures>::add_measures() {
   triangles();
   const std::vector<HalfedgeId> edges = sorted_edges(mesh_);
   c_.edges.reserve(edges.size());
@@ -84,7 +91,6 @@ DecComplex DecBuilder<Measures>::build_measures() {
   c_.edge_of_halfedge.resize(mesh_.n_halfedges());
   for (const HalfedgeId h : edges) add_edge(h);
   dual_areas();
-  return std::move(c_);
 }
 
 template <class Measures>

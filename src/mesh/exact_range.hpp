@@ -15,6 +15,7 @@ namespace temper {
 struct ExactRange {
   double low, high;
   [[nodiscard]] bool allows(double x) const { return x == 0 || (std::abs(x) >= low && std::abs(x) <= high); }
+  /// Returns 0 for a magnitude below the range.
   [[nodiscard]] double without_tiny(double x) const { return std::abs(x) < low ? 0 : x; }
   [[nodiscard]] constexpr ExactRange squared() const { return {low * low, high * high}; }
   [[nodiscard]] std::string text() const {
@@ -22,7 +23,7 @@ struct ExactRange {
   }
 };
 
-/// Of surfaces.
+/// Range of the coordinates of surfaces.
 inline constexpr ExactRange kCoordinatesInSpace = {1e-60, 1e60};
 
 }  // namespace temper

@@ -304,7 +304,7 @@ class Placement {
       const double size = size_at(middle, area);
       for (const double height : kHeights) {
         if (!take(surface_.below(middle + (height * size) * inwards), middle, area, i)) continue;
-        // Towards an end of the piece, so that the next row is that of equilateral triangles.
+        // The first proposal lies towards an end of the piece, so the next row makes equilateral triangles.
         front_.back().direction = -1.0 * surface_.direction(front_.back().at, a);
         break;
       }

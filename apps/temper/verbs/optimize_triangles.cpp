@@ -155,7 +155,7 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
   tensors.resize(std::min<std::size_t>(tensors.size(), 1));  // all have it if the report has none
   look_at(results.report.triangle_tensors.empty() ? tensors : results.report.triangle_tensors,
           results.report.corner_weights);
-  add_errors(s, results.second, *seen, files.threads, results);
+  on_first_rank([&] { add_errors(s, results.second, *seen, files.threads, results); });
   if (files.trace != nullptr) files.trace->stream.write(trace_end(files.trace->events, mesh, input));
   if (measured && !viewer) results.after = quality(*seen, measuring);
   const bool all_regular = measured && results.after.non_regular_edges == 0;  // those that may not be flipped, too

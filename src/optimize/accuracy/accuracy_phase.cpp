@@ -15,7 +15,7 @@ constexpr int kSweepsForLengths = 3;
 // Near the minimum it overshoots, so sweeps that gain little go on with 1.7.
 constexpr double kFirstRelaxation = 1.97;
 constexpr double kLittleGain = 1e-4;  // part of the energy
-// If steps for the solver's error follow, which lower this energy, too, sweeps end so many tolerances earlier. With 100
+// Factor of the tolerance if steps for the solver's error follow, because these steps lower this energy, too. With 100,
 // errors are 1 % larger.
 constexpr double kTolerancesBeforeError = 50;
 

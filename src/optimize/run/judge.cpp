@@ -104,13 +104,12 @@ bool replaces(const WorkingCopy& now, const WorkingCopy& best, Requirement requi
 }
 
 bool is_judged_by_errors(std::size_t n_vertices, const Space& space, const Settings& settings) {
-  constexpr int kMostVertices = 20'000;  // every field is solved on every rival
   const OptimizeOptions& o = settings.options;
   const bool is_free = !o.objective && settings.objective != Objective::energy && o.accuracy.sweeps > 0 &&
                        o.unknowns != Unknowns::positions && o.boundary != BoundaryVertices::split && !o.problem;
   return is_free && o.change == Change::all && o.scheme != Scheme::stars && settings.hooks.solvers.squared_errors &&
          !settings.accuracy.keeps_lengths() && space.kind() == SpaceKind::plane &&
-         n_vertices <= static_cast<std::size_t>(std::min(o.solver_error.most_vertices, kMostVertices));
+         n_vertices <= static_cast<std::size_t>(std::min(o.solver_error.most_vertices, kMostJudgedVertices));
 }
 
 bool is_sound(const Mesh& input, const MeshScore& counts, const Settings& settings) {

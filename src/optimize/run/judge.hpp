@@ -74,6 +74,9 @@ enum class Requirement {
 [[nodiscard]] bool replaces(const WorkingCopy& now, const WorkingCopy& best, Requirement required,
                             const Settings& settings, const EnergyModel& model);
 
+/// Largest number of vertices of rivals that measured errors judge: every field is solved on each of them.
+inline constexpr int kMostJudgedVertices = 20'000;
+
 /// Says whether measured errors of the solver decide between the mesh of the run and its rivals. For this the target
 /// must have a solver, the objective must be left to the run, and the build must be able to measure.
 [[nodiscard]] bool is_judged_by_errors(std::size_t n_vertices, const Space& space, const Settings& settings);

@@ -14,7 +14,7 @@
 
 namespace temper::surfaces {
 
-/// Sizes and floors are those of the first draft.
+/// Takes sizes and floors from the first draft.
 class DraftAccuracy {
  public:
   DraftAccuracy(const Draft& draft, const AccuracyModel& model);

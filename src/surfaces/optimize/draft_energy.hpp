@@ -14,7 +14,7 @@
 
 namespace temper::surfaces {
 
-/// The energy of a draft, as Descent needs it: the sum over all triangles of barrier.hpp, or that of DraftAccuracy. A
+/// The energy of a draft for Descent: the barriers of all triangles (barrier.hpp), or the energy of DraftAccuracy. A
 /// vertex has three unknowns: two in its tangent plane, in units of its mean edge, and its weight, in units of the
 /// square of that. A vertex of a line has one unknown along it in place of two.
 class DraftEnergy {

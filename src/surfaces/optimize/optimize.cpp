@@ -108,8 +108,7 @@ Expected<SurfaceOptions> surface_options(const OptimizeOptions& options) {
 namespace {
 
 bool measures_errors(const SurfaceMesh& mesh, const SurfaceOptions& options) {
-  constexpr std::size_t kMostVertices = 20'000;  // as in the plane: every field is solved on every rival
-  return options.squared_errors && mesh.n_vertices() <= kMostVertices;
+  return options.squared_errors && mesh.n_vertices() <= static_cast<std::size_t>(kMostJudgedVertices);
 }
 
 SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options) {

@@ -64,6 +64,7 @@ std::optional<State> Run::lowered(const State& state, const AccuracyModel& model
 
 State Run::polished(State state) {
   const State given = state;
+  state.cost.reset();
   // The margin of the barrier, in margins of the options. With more, projection to the surface takes more back.
   constexpr double kBarrierMargin = 2;
   AccuracyOptions accuracy;
@@ -88,7 +89,8 @@ State Run::polished(State state) {
     if (gain > 0 && gain < kSmallPart) break;
     if (gain <= 0) steps = steps > 0 ? steps / 2 : -1;  // at last the weights alone
   }
-  return judged == nullptr ? state : better(std::move(state), given);
+  if (judged == nullptr) return state;
+  return better(std::move(state), given);
 }
 
 }  // namespace temper::surfaces

@@ -176,7 +176,7 @@ State Run::best_of_limits(const State& input, State best, TurnLimit first) {
   return best;
 }
 
-double Run::rate(const State& state) {
+double Run::cost_of(const State& state) {
   if (judged == nullptr) return energy_of(state.mesh, kLastGamma) / static_cast<double>(state.mesh.n_triangles());
   if (errors_of_input.empty()) errors_of_input = options.squared_errors(*judged, options.scheme);
   const std::vector<double> errors = options.squared_errors(result(state), options.scheme);
@@ -185,8 +185,11 @@ double Run::rate(const State& state) {
 
 State Run::better(State best, State other) {
   if (best.bad != other.bad || best.bad > 0) return other.bad < best.bad ? std::move(other) : std::move(best);
-  const double of_best = must_stop() ? 0 : rate(best);
-  return !must_stop() && rate(other) < of_best ? std::move(other) : std::move(best);
+  for (State* const state : {&best, &other}) {
+    if (must_stop()) return best;
+    if (!state->cost) state->cost = cost_of(*state);
+  }
+  return !must_stop() && *other.cost < *best.cost ? std::move(other) : std::move(best);
 }
 
 State Run::best_of_starts(const State& input, const State& weighted, TurnLimit first) {

@@ -7,9 +7,8 @@
 // Two starts compete: moves alone, with weights at the end; and moves with weights. At first the surface must not turn
 // more at its edges than a limit. As long as bad triangles are left, all begins again, with a wider limit and without.
 // If none is left, rounds lower the accuracy energy of the scheme (polish.cpp). If weights alone suffice, that mesh is
-// polished too. If vertices slide, the whole run is repeated with these vertices held. The run returns the
-// result with the least errors of the scheme, relative to the input; without measured errors, that with the least
-// energy.
+// polished too. If vertices slide, the whole run is repeated with these vertices held. The run returns the result
+// with the least errors of the scheme, relative to the input; without measured errors, that with the least energy.
 #pragma once
 
 #include <algorithm>
@@ -36,6 +35,7 @@ struct State {
   std::size_t bad = 0;                   ///< Number of cells at violations
   std::size_t repairs = 0;               ///< Number of edits
   double gain = 0;                       ///< Part of the accuracy energy by which the last round lowered it
+  std::optional<double> cost = {};       ///< Run::cost_of() it, if known
 };
 
 [[nodiscard]] Turns turns_of(const SurfaceMesh& mesh, double sharp_deg);
@@ -43,7 +43,7 @@ struct State {
 /// A mesh in another unit of length.
 [[nodiscard]] SurfaceMesh scaled(SurfaceMesh mesh, double factor);
 
-inline constexpr double kLastGamma = 0.01;  // of all rounds
+inline constexpr double kLastGamma = 0.01;  // of the last rounds
 /// The energy of a mesh.
 [[nodiscard]] double energy_of(const SurfaceMesh& mesh, double gamma);
 /// A draft of the whole mesh.
@@ -86,10 +86,10 @@ struct Run {
 
   /// The best of starts whose vertices slide along lines, if they may, and of starts whose vertices stay there.
   [[nodiscard]] State best_of_tracks(State input, State weighted, TurnLimit first);
-  /// The better of two results: with fewer bad cells; if there are none, by rate().
+  /// The better of two results: with fewer bad cells; if there are none, by cost_of().
   [[nodiscard]] State better(State best, State other);
   /// The largest ratio of an error to the input's; without errors, the mean energy of a triangle.
-  [[nodiscard]] double rate(const State& state);
+  [[nodiscard]] double cost_of(const State& state);
   /// The best of runs with wider and wider limits, and of moves where weights alone suffice; all polished.
   [[nodiscard]] State best_of_starts(const State& input, const State& weighted, TurnLimit first);
   /// The best of runs with wider and wider limits, or `best` if it is better.
