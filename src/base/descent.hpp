@@ -39,7 +39,7 @@ class Descent {
   ///   n_elements(), corners(e), room(e)   elements; rooms are computed on threads
   ///   place(step, t)  moves all points by t times the step, from where they were before it
   ///   is_inside()     says whether exact tests allow the points
-  ///   value()         has `lowered`, +∞ outside, and its `gradient` by the scaled unknowns
+  ///   value()         has `lowered`, +∞ outside, and its `gradient` by the scaled unknowns, empty in the last step
   template <class Function, class Value, class MustStop>
   Outcome take_step(Function& f, Value& now, Executor* executor, const MustStop& must_stop);
 
@@ -85,9 +85,11 @@ Descent::Outcome Descent::take_step(Function& f, Value& now, Executor* executor,
     if (!f.is_inside()) continue;
     Value there = f.value();
     if (!(there.lowered <= now.lowered + kArmijo * t * slope)) continue;
-    Vector change = there.gradient;
-    for (std::size_t k = 0; k < change.size(); ++k) change[k] -= now.gradient[k], step[k] *= t;
-    learn(std::move(step), std::move(change));
+    if (!there.gradient.empty()) {
+      Vector change = there.gradient;
+      for (std::size_t k = 0; k < change.size(); ++k) change[k] -= now.gradient[k], step[k] *= t;
+      learn(std::move(step), std::move(change));
+    }
     now = std::move(there);
     return Outcome::taken;
   }

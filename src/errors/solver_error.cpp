@@ -174,10 +174,9 @@ class CellSolver final : public Solver {
         }
       } else {
         const std::size_t left = edge.left.index, right = edge.right.index;
-        for (std::size_t i = 0; i < kLanes; ++i) {
-          const double flux = flow[i] - coefficient * (value[left][i] - value[right][i]);
-          errors[left][i] += flux, errors[right][i] -= flux;
-        }
+        Lanes flux;
+        for (std::size_t i = 0; i < kLanes; ++i) flux[i] = flow[i] - coefficient * (value[left][i] - value[right][i]);
+        move(flux, errors[right], errors[left]);
       }
     }
   }
@@ -185,11 +184,11 @@ class CellSolver final : public Solver {
   [[nodiscard]] Lanes flow_through(const Waves& waves, const DecEdge& edge,
                                    const std::vector<Lanes>& at_vertices) const {
     const OnEdge on(subject().mesh, waves, edge, at_vertices);
-    Lanes flow = waves.slopes(on.middle);
+    Lanes flow = waves.slopes(on.middle), factor;
     for (std::size_t d = 0; d < kDirections; ++d) {
-      const double factor = cross(on.e, waves.k[d]) * on.means.even[d];
-      flow[2 * d] *= factor, flow[2 * d + 1] *= factor;
+      factor[2 * d] = factor[2 * d + 1] = cross(on.e, waves.k[d]) * on.means.even[d];
     }
+    for (std::size_t i = 0; i < kLanes; ++i) flow[i] *= factor[i];
     return flow;
   }
 

@@ -53,9 +53,8 @@ struct FieldBlock {
   [[nodiscard]] Lanes slopes(const Lanes& values) const {
     if (has_fronts) return of_each(values, [](double, double c2) { return c2 * std::sqrt(c2); });
     Lanes slopes;
-    for (std::size_t d = 0; d < kDirections; ++d) {
-      slopes[2 * d] = values[2 * d + 1], slopes[2 * d + 1] = -values[2 * d];
-    }
+    for (std::size_t i = 0; i < kLanes; ++i) slopes[i] = values[i ^ 1U];
+    for (std::size_t i = 1; i < kLanes; i += 2) slopes[i] = -slopes[i];
     return slopes;
   }
   /// f = −Δu, from the values: k² u, or 3 k² u c⁴.

@@ -4,6 +4,8 @@
 // is positive when the edge is not regular. A link edge has −F: it is regular while p does not conflict with the
 // triangle beyond. A spoke to q has F: it is regular while p conflicts with the triangle of q and its two neighbors on
 // the link.
+#include "regularity/flip_threshold.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -64,23 +66,27 @@ double first_crossing(Quadratic g) {
   return least;
 }
 
+/// Says whether g may be positive before t.
+bool may_cross(const Quadratic& g, double t) {
+  constexpr double kRounded = 1 - 1e-9;  // more than the rounding of a root
+  return !(kRounded * g.c0 + t * (std::max(g.c1, 0.0) + t * std::max(g.c2, 0.0)) < 0);
+}
+
 template <auto conflict_along>
-double flip_threshold_of(const Mesh& mesh, VertexId v, const std::array<double, 3>& step) {
+double flip_threshold_of(const Mesh& mesh, VertexId v, const std::array<double, 3>& step, double threshold) {
   const WeightedPoint p = mesh.point(v);
   const PowerTest test;
-  double threshold = kNoThreshold;
   for (const HalfedgeId h : mesh.star(v)) {
     const WeightedPoint q = mesh.point(mesh.target(h), p), r = mesh.point(mesh.opposite(h), p);
     for (const HalfedgeId e : {h, Mesh::next(h)}) {
       if (mesh.is_boundary(e) || mesh.is_constrained(e)) continue;
-      if (test(mesh, inlined::quad(mesh, e)) == Sign::positive) continue;  // not regular as it is
       const WeightedPoint across = mesh.point(mesh.opposite(mesh.twin(e)), q);
-      if (e == h) {
-        const Quadratic f = conflict_along(p, across, q, r, step);
-        threshold = std::min(threshold, first_crossing({-f.c0, -f.c1, -f.c2}));
-      } else {
-        threshold = std::min(threshold, first_crossing(conflict_along(p, r, q, across, step)));
-      }
+      Quadratic g = e == h ? conflict_along(p, across, q, r, step) : conflict_along(p, r, q, across, step);
+      if (e == h) g = {-g.c0, -g.c1, -g.c2};
+      if (!may_cross(g, threshold)) continue;
+      const double crossing = first_crossing(g);
+      if (!(crossing < threshold) || test(mesh, inlined::quad(mesh, e)) == Sign::positive) continue;
+      threshold = crossing;  // of an edge that is regular as it is
     }
   }
   return threshold;
@@ -88,10 +94,14 @@ double flip_threshold_of(const Mesh& mesh, VertexId v, const std::array<double, 
 
 }  // namespace
 
-double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>& step) {
+double flip_threshold_up_to(const Mesh& mesh, VertexId v, const std::array<double, 3>& step, double most) {
   TEMPER_ASSERT(!mesh.is_isolated(v));
-  return mesh.space().is_plane() ? flip_threshold_of<conflict_in_plane>(mesh, v, step)
-                                 : flip_threshold_of<conflict_on_sphere>(mesh, v, step);
+  return mesh.space().is_plane() ? flip_threshold_of<conflict_in_plane>(mesh, v, step, most)
+                                 : flip_threshold_of<conflict_on_sphere>(mesh, v, step, most);
+}
+
+double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>& step) {
+  return flip_threshold_up_to(mesh, v, step, kNoThreshold);
 }
 
 double weight_flip_threshold(const Mesh& mesh, VertexId v, double direction) {

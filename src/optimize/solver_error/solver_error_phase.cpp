@@ -56,6 +56,7 @@ bool SolverErrorPhase::may_sweep() const {
 /// Returns false if the caller has stopped the run.
 std::optional<bool> SolverErrorPhase::move_all(const Recorder& recorder) {
   for (const VertexId v : mesh_.vertices()) before_[v] = mesh_.point(v);
+  is_last_step_ = iteration + 1 >= most_solver_error_steps(settings_.options);
   const Descent::Outcome outcome =
       descent_.take_step(*this, now_, settings_.executor(), [this] { return run_.asked_to_stop(0); });
   stuck_ = outcome == Descent::Outcome::stuck;
@@ -90,12 +91,14 @@ SolverErrorPhase::Value SolverErrorPhase::value() {
   const double total = energy + barrier;
   if (!std::isfinite(total) || !(total > 0)) return result;
   std::vector<Gradient> gradients;
-  const std::vector<double> errors = settings_.errors->errors(mesh_, &gradients, settings_.executor());
+  const std::vector<double> errors =
+      settings_.errors->errors(mesh_, is_last_step_ ? nullptr : &gradients, settings_.executor());
   if (start_.empty()) start_ = errors;
   if (errors.empty()) return result;
   result.error = root_mean_square(errors);
   const LogObjective objective = log_objective(errors, start_, total, settings_.options.solver_error.offset_share);
   result.lowered = objective.value;
+  if (is_last_step_) return result;
   Gradient gradient(mesh_.n_vertices(), WeightedPoint{});
   for (std::size_t i = 0; i < errors.size(); ++i) {
     for (const VertexId v : mesh_.vertices()) add(gradient[v], objective.by_error[i], gradients[i][v]);

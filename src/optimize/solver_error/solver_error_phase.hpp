@@ -56,6 +56,7 @@ class SolverErrorPhase final : public SizedPhase {
   Value now_;
   Descent descent_;
   bool stuck_ = false;           // no step lowers the objective
+  bool is_last_step_ = false;    // then nobody needs the gradient after it
   std::vector<double> history_;  // of the objective
 };
 

@@ -7,6 +7,7 @@
 #include "mesh/edge_lengths.hpp"
 #include "optimize/step/descent.hpp"
 #include "optimize/step/search.hpp"
+#include "regularity/flip_threshold.hpp"
 #include "regularity/lawson.hpp"
 #include "temper/regularity.hpp"
 
@@ -139,8 +140,7 @@ double VertexStep::flip_limited(const Step& step, double t) const {
   if (state.flip_limit == FlipLimit::unlimited) return t;
   const bool after = state.flip_limit == FlipLimit::after;
   const double factor = after ? overshoot_ : state.flip_limit == FlipLimit::before ? kBeforeFlip : 1;
-  const double threshold = flip_threshold(mesh, vertex_, step);
-  return threshold < kNoThreshold ? std::min(t, factor * threshold) : t;
+  return std::min(t, factor * flip_threshold_up_to(mesh, vertex_, step, 2 * t / factor));  // 2: for the rounding
 }
 
 WeightedPoint VertexStep::moved(const Step& step, double t) const {

@@ -57,6 +57,7 @@ struct Chain {
 
   std::vector<double> before, at;
   double limit = std::numeric_limits<double>::infinity();  // points beyond it are outside
+  bool is_last_step = false;                               // then there is no gradient
 
   explicit Chain(std::vector<double> x) : before(x), at(std::move(x)) {}
   [[nodiscard]] std::size_t n_elements() const { return at.size() - 1; }
@@ -67,7 +68,7 @@ struct Chain {
   }
   [[nodiscard]] bool is_inside() const { return at.front() < limit; }
   [[nodiscard]] Value value() const {
-    Value v = {0, at};
+    Value v = {0, is_last_step ? std::vector<double>{} : at};
     for (const double x : at) v.lowered += 0.5 * x * x;
     return v;
   }
@@ -88,6 +89,17 @@ TEST(Descent, TakesStepsThatLowerTheFunctionAndKeepAPartOfEachRoom) {
     for (std::size_t p = 0; p < chain.at.size(); ++p) EXPECT_LE(std::abs(chain.at[p] - start.at[p]), 0.3 + 1e-12);
   }
   EXPECT_LT(now.lowered, 0.5);
+}
+
+TEST(Descent, LearnsNothingFromTheLastStep) {
+  Chain chain({1, 2, 3});
+  Descent descent;
+  Chain::Value now = chain.value();
+  const double lowered = now.lowered;
+  chain.is_last_step = true;
+  EXPECT_EQ(descent.take_step(chain, now, nullptr, [] { return false; }), Descent::Outcome::taken);
+  EXPECT_LT(now.lowered, lowered);
+  EXPECT_TRUE(descent.knows_nothing());
 }
 
 TEST(Descent, LeavesPointsWhereTheyWereIfNoStepIsTaken) {

@@ -1,6 +1,9 @@
 // The thresholds of §2.4 against bisection with the exact test of regularity, and where the answer is known.
+#include "regularity/flip_threshold.hpp"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "property/mesh_of_random_points.hpp"
@@ -149,6 +152,8 @@ TEST(FlipThreshold, OfAnyStepIsWhereAnEdgeStopsBeingRegular) {
     for (const VertexId v : random.mesh.vertices()) {
       const std::array<double, 3> step = {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
       const double threshold = flip_threshold(random.mesh, v, step);
+      const double most = rng.uniform(0, 2) * std::min(threshold, 1.0);
+      EXPECT_EQ(flip_threshold_up_to(random.mesh, v, step, most), std::min(threshold, most));
       const Probe probe(random.mesh, v, step);
       if (threshold == kNoThreshold) {
         EXPECT_TRUE(probe.regular_at(1)) << "seed " << seed;
