@@ -33,7 +33,8 @@ struct ErrorReport : temper::ErrorReport {
 /// Returns the ratio of errors, field by field, as error_ratios() of the plane does.
 [[nodiscard]] Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const ErrorReport& before);
 
-/// Does for a surface what temper::squared_solver_errors does in the plane.
+/// Does for a surface what temper::squared_solver_errors does in the plane. Behind the sums it gives the geometric
+/// means over the fields, because in a sum one field with large errors hides the others.
 [[nodiscard]] std::vector<double> squared_solver_errors(const SurfaceMesh& mesh, Scheme scheme);
 
 }  // namespace temper::surfaces

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -91,19 +92,28 @@ OperatorErrors mean(std::span<const FieldErrors> fields, std::optional<FieldGrou
   return result;
 }
 
-/// Sums over the fields, for each norm of the errors that the scheme is meant to lower.
-std::vector<double> squared_errors(std::span<const FieldErrors> fields, Scheme scheme) {
-  std::vector<double> squared;
+double sum_of(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+/// The geometric mean. Values that are nearly exact, or 0, count as a small part of the sum.
+double geometric_mean_of(std::span<const double> values) {
+  constexpr double kExact = 1e-8;
+  double sum = 0;
+  for (const double value : values) sum += std::log(std::max(value, kExact * sum_of(values)));
+  return std::exp(sum / static_cast<double>(values.size()));
+}
+
+/// Appends of(squares over the fields), for each norm of the errors that the scheme is meant to lower.
+void append_squared_errors(std::vector<double>& squared, std::span<const FieldErrors> fields, Scheme scheme,
+                           double (*of)(std::span<const double>)) {
   for (const ErrorMeasure& measure : kMeasures) {
     const bool at_vertices = measure.key.starts_with("poisson."), in_cells = measure.key.starts_with("flux.");
     const bool of_stars = !at_vertices && !in_cells;
     if (of_stars != (scheme == Scheme::stars)) continue;
     if ((at_vertices && scheme == Scheme::cell) || (in_cells && scheme == Scheme::vertex)) continue;
-    double sum = 0;
-    for (const FieldErrors& row : fields) sum += measure.of(row.errors) * measure.of(row.errors);
-    squared.push_back(sum);
+    std::vector<double> squares;
+    for (const FieldErrors& row : fields) squares.push_back(measure.of(row.errors) * measure.of(row.errors));
+    squared.push_back(of(squares));
   }
-  return squared;
 }
 
 }  // namespace
@@ -130,13 +140,19 @@ Expected<std::vector<FieldErrors>> error_ratios(const ErrorReport& after, const 
 }
 
 std::vector<double> squared_solver_errors(const Mesh& mesh, Scheme scheme, Executor* executor) {
+  std::vector<double> squared;
   const auto report = measure_errors(mesh, {.fields = {std::string(name(FieldGroup::chosen))}, .executor = executor});
-  return report ? squared_errors(report->fields, scheme) : std::vector<double>();
+  if (report) append_squared_errors(squared, report->fields, scheme, sum_of);
+  return squared;
 }
 
 std::vector<double> surfaces::squared_solver_errors(const SurfaceMesh& mesh, Scheme scheme) {
+  std::vector<double> squared;
   const auto report = measure_errors(mesh, {.fields = {std::string(name(FieldGroup::chosen))}});
-  return report ? squared_errors(report->fields, scheme) : std::vector<double>();
+  if (!report) return squared;
+  append_squared_errors(squared, report->fields, scheme, sum_of);
+  append_squared_errors(squared, report->fields, scheme, geometric_mean_of);
+  return squared;
 }
 
 namespace error_detail {

@@ -73,7 +73,7 @@ State Run::polished(State state) {
   Nearness::Known known;
   double least_margin = least_margin_of(state.mesh);
   if (least_margin < options.margin && n_below(state.mesh, options.margin) <= kFewForPrograms) {
-    std::optional<SurfaceMesh> changed = with_margin(state.mesh);
+    std::optional<SurfaceMesh> changed = with_margin(state.mesh, WeightGoal::elastic, options.margin);
     if (changed && bad(*changed) == 0 && least_margin_of(*changed) > least_margin) state.mesh = *std::move(changed);
   }
   // Small margins must not get smaller.

@@ -196,11 +196,20 @@ State Run::best_of_starts(const State& input, const State& weighted, TurnLimit f
   State best = best_of_limits(input, weighted, first);
   limit = first;
   if (best.bad > 0 || input.bad == 0 || !options.may_move) return best;
-  best = polished(std::move(best));
-  if (weighted.bad > 0) return best;
+  if (weighted.bad > 0) return polished(std::move(best));
+  best = polished(with_least_change(input, std::move(best)));
   State found = moved(input, input);
   if (found.bad == 0) found = polished(std::move(found));
   return better(std::move(best), std::move(found));
+}
+
+State Run::with_least_change(const State& input, State otherwise) const {
+  // With a larger margin errors are larger.
+  constexpr double kPartOfMargin = 0.1;
+  if (judged == nullptr) return otherwise;
+  std::optional<SurfaceMesh> changed = with_margin(input.mesh, WeightGoal::change, kPartOfMargin * options.margin);
+  if (changed && bad(*changed) == 0) otherwise.mesh = *std::move(changed);
+  return otherwise;
 }
 
 State Run::best_of_tracks(State input, State weighted, TurnLimit first) {
@@ -220,14 +229,15 @@ void Run::find_weights(State& state) const {
     take_if_better(state, std::move(changed));
   }
   if (state.bad == 0 || state.bad > kFewForPrograms || must_stop()) return;
-  if (std::optional<SurfaceMesh> changed = with_margin(state.mesh)) take_if_better(state, *std::move(changed));
+  std::optional<SurfaceMesh> changed = with_margin(state.mesh, WeightGoal::elastic, options.margin);
+  if (changed) take_if_better(state, *std::move(changed));
 }
 
-std::optional<SurfaceMesh> Run::with_margin(SurfaceMesh mesh) const {
+std::optional<SurfaceMesh> Run::with_margin(SurfaceMesh mesh, WeightGoal goal, double margin) const {
   WeightOptions request;
-  request.goal = WeightGoal::elastic;
+  request.goal = goal;
   request.from_input = true;
-  request.margin = options.margin;
+  request.margin = margin;
   request.constraints = constraints_of(options.criterion);
   request.must_stop = [this] { return must_stop(); };
   const auto found = surfaces::find_weights(mesh, solver, request);

@@ -6,9 +6,10 @@
 //
 // Two starts compete: moves alone, with weights at the end; and moves with weights. At first the surface must not turn
 // more at its edges than a limit. As long as bad triangles are left, all begins again, with a wider limit and without.
-// If none is left, rounds lower the accuracy energy of the scheme (polish.cpp). If weights alone suffice, that mesh is
-// polished too. If vertices slide, the whole run is repeated with these vertices held. The run returns the result
-// with the least errors of the scheme, relative to the input; without measured errors, that with the least energy.
+// If none is left, rounds lower the accuracy energy of the scheme (polish.cpp). If weights alone suffice, the mesh with
+// the least change of weights is polished too. If vertices slide, the whole run is repeated with these vertices held.
+// The run returns the result with the least errors of the scheme, relative to the input; without measured errors, that
+// with the least energy.
 #pragma once
 
 #include <algorithm>
@@ -92,6 +93,8 @@ struct Run {
   [[nodiscard]] double cost_of(const State& state);
   /// The best of runs with wider and wider limits, and of moves where weights alone suffice; all polished.
   [[nodiscard]] State best_of_starts(const State& input, const State& weighted, TurnLimit first);
+  /// If measured errors decide, the input with the least change of weights; otherwise, and if that fails, the other.
+  [[nodiscard]] State with_least_change(const State& input, State otherwise) const;
   /// The best of runs with wider and wider limits, or `best` if it is better.
   [[nodiscard]] State best_of_limits(const State& input, State best, TurnLimit first);
   /// The better of two starts, or `best` if it is better.
@@ -110,8 +113,8 @@ struct Run {
   /// One of these rounds, with its gain; nothing if it fails, or if a margin is less than the least one.
   [[nodiscard]] std::optional<State> lowered(const State& state, const AccuracyModel& model, int steps,
                                              double least_margin, Nearness::Known& known) const;
-  /// The mesh with weights by a linear program for the margin of the options; nothing if that fails.
-  [[nodiscard]] std::optional<SurfaceMesh> with_margin(SurfaceMesh mesh) const;
+  /// The mesh with weights by a linear program for a margin; nothing if that fails.
+  [[nodiscard]] std::optional<SurfaceMesh> with_margin(SurfaceMesh mesh, WeightGoal goal, double margin) const;
   void take_if_better(State& state, SurfaceMesh changed) const;
   [[nodiscard]] bool may_try() const { return trials < static_cast<std::size_t>(options.repair_trials); }
   /// Edits next to bad triangles, as long as one helps; then weights.

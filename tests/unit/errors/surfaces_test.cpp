@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "errors/fields.hpp"
+#include "feasibility/demand.hpp"
 #include "optimize/run/judge.hpp"
 #include "support/surface_meshes.hpp"
 #include "temper/detail/lp.hpp"
@@ -119,7 +120,7 @@ TEST(SurfaceErrors, SquaredErrorsAreThoseOfTheScheme) {
       {Scheme::stars, {"star0.l2", "star0.max", "star1.l2", "star1.max", "star2.l2", "star2.max"}}};
   for (const auto& [scheme, keys] : expected) {
     const std::vector<double> squared = squared_solver_errors(mesh, scheme);
-    ASSERT_EQ(squared.size(), keys.size());
+    ASSERT_EQ(squared.size(), 2 * keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
       const auto measures = error_measures();
       const auto measure =
@@ -127,6 +128,10 @@ TEST(SurfaceErrors, SquaredErrorsAreThoseOfTheScheme) {
       double sum = 0;
       for (const FieldErrors& row : report.fields) sum += measure->of(row.errors) * measure->of(row.errors);
       EXPECT_EQ(squared[i], sum) << keys[i];
+      double product = 1;
+      for (const FieldErrors& row : report.fields) product *= measure->of(row.errors);
+      const double mean = std::pow(product, 2.0 / static_cast<double>(report.fields.size()));
+      EXPECT_NEAR(squared[keys.size() + i], mean, 1e-12 * mean) << keys[i];
     }
   }
 }
@@ -154,6 +159,33 @@ TEST(SurfaceErrors, OfTheSchemeAreNotLargerWhereTheyDecide) {
                 largest_ratio(squared_solver_errors(without, scheme), before));
     }
   }
+}
+
+// Each change of weights disturbs coefficients whose errors cancel.
+TEST(SurfaceErrors, AreNotLargerThanWithTheLeastChangeOfWeights) {
+  int n_with_weights = 0;
+  for (const std::uint64_t seed : {1, 2, 4}) {
+    Mesh plane = *random_mesh({.vertices = 45, .seed = seed});
+    test::SurfaceArrays arrays = test::lifted(plane);
+    for (Vec3& p : arrays.points) p.z = 0.25 * std::sin(4 * p.x) * std::cos(3 * p.y);
+    const SurfaceMesh input = test::mesh_of(arrays);
+    SurfaceOptions options;
+    options.scheme = Scheme::vertex, options.criterion = criterion_of(options.scheme);
+    options.squared_errors = squared_errors();
+    WeightOptions least;
+    least.goal = WeightGoal::change, least.from_input = true;
+    least.margin = 0.1 * options.margin, least.constraints = constraints_of(options.criterion);
+    const auto weights = find_weights(input, *clp_solver(), least);
+    if (!weights) continue;
+    SurfaceMesh weighted = input, result = input;
+    for (const VertexId v : input.vertices()) weighted.set_weight(v, weights->weights[v]);
+    ASSERT_TRUE(optimize(result, *clp_solver(), options));
+    const std::vector<double> before = squared_solver_errors(input, options.scheme);
+    const double ratio = largest_ratio(squared_solver_errors(weighted, options.scheme), before);
+    EXPECT_LE(largest_ratio(squared_solver_errors(result, options.scheme), before), ratio * (1 + 1e-9)) << seed;
+    ++n_with_weights;
+  }
+  EXPECT_GT(n_with_weights, 1);
 }
 
 TEST(SurfaceErrors, BadInputIsNamed) {
