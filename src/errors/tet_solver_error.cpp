@@ -71,14 +71,13 @@ struct VertexScheme {
   IdVector<VertexId, double> star0;
   double volume = 0;
 
-  VertexScheme(const TetMesh& mesh, const Edges& of)
+  VertexScheme(const TetMesh& mesh, const Edges& of, Executor* executor)
       : edges(of.ends_of),
         edges_of(of.of),
-        parts(mesh.n_tetrahedra()),
+        parts(parts_of(mesh, executor)),
         star1(edges.size(), 0),
         star0(mesh.n_vertices(), 0) {
     for (const TetId t : mesh.tetrahedra()) {
-      parts[t] = TetDuals(mesh, t).parts();
       for (std::size_t e = 0; e < 6; ++e) {
         const auto [i, j] = ends(mesh, t, e);
         const EdgeId id = edges_of[t][e];
@@ -93,11 +92,11 @@ struct VertexScheme {
 
 using Adjoint = error_detail::VertexAdjoint<Vec3>;
 
-Gradient pulled_back(const TetMesh& mesh, const VertexScheme& dec, const Adjoint& by) {
+Gradient pulled_back(const TetMesh& mesh, const VertexScheme& dec, const Adjoint& by, Executor* executor) {
   Gradient gradient(mesh.n_vertices());
   for (const VertexId v : mesh.vertices()) gradient[v] = {by.vertex[v].x, by.vertex[v].y, by.vertex[v].z, 0};
-  for (const TetId t : mesh.tetrahedra()) {
-    TetParts slopes;
+  const auto by_parts = [&](TetId t) {
+    TetParts slopes = {};
     for (std::size_t e = 0; e < 6; ++e) {
       const auto [i, j] = ends(mesh, t, e);
       const double volume = dec.parts[t].edges[e].volume, along = dec.parts[t].along[e],
@@ -107,8 +106,9 @@ Gradient pulled_back(const TetMesh& mesh, const VertexScheme& dec, const Adjoint
       slopes.along[e] = volume * (at_i - at_j);
       slopes.square[e] = -by_star1 * volume / (square * square);
     }
-    add_to(gradient, mesh.corners(t), TetDuals(mesh, t).pulled_back(slopes));
-  }
+    return slopes;
+  };
+  add_pulled_back(gradient, mesh, by_parts, executor);
   return gradient;
 }
 
@@ -132,7 +132,7 @@ class TetVertexError final : public DiscretizationError {
                                            Executor* executor) const override {
     const auto kept = kept_.take();
     kept->edges.find(mesh);
-    const VertexScheme dec(mesh, kept->edges);
+    const VertexScheme dec(mesh, kept->edges, executor);
     std::vector<bool> given;
     for (const std::uint8_t on_boundary : boundary_vertices(mesh)) given.push_back(on_boundary != 0);
     const PointSystem points = vertex_system(dec, given);
@@ -148,7 +148,7 @@ class TetVertexError final : public DiscretizationError {
       sums.push_back(sum_over(fields, by ? &*by : nullptr, executor, [&](const Fields& block, Adjoint* part) {
         return vertex_error(mesh, dec, {points, kept->matrix}, block, part);
       }));
-      if (by) gradients->push_back(pulled_back(mesh, dec, *by));
+      if (by) gradients->push_back(pulled_back(mesh, dec, *by, executor));
     }
     return sums;
   }

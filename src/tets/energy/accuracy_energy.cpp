@@ -13,17 +13,6 @@
 namespace temper::tets {
 namespace {
 
-constexpr std::size_t kTetsPerTask = 256;
-
-/// Calls work(t) for all tetrahedra, on threads.
-template <class Work>
-void for_all(const TetMesh& mesh, Executor* executor, const Work& work) {
-  const std::size_t n = mesh.n_tetrahedra(), tasks = (n + kTetsPerTask - 1) / kTetsPerTask;
-  or_serial(executor).run(tasks, [&](std::size_t i) {
-    for (std::size_t t = i * kTetsPerTask; t < std::min(n, (i + 1) * kTetsPerTask); ++t) work(TetId(t));
-  });
-}
-
 double mean(const VertexSizes& sizes, std::span<const VertexId> vertices) {
   double sum = 0;
   for (const VertexId v : vertices) sum += sizes[v];
@@ -95,12 +84,6 @@ bool AccuracyEnergy::leaves_out_part_of(TetId t) const {
   return std::any_of(edges.begin(), edges.end(), is_out) || std::any_of(faces.begin(), faces.end(), is_out);
 }
 
-AccuracyEnergy::Parts AccuracyEnergy::parts_of(const TetMesh& mesh, Executor* executor) {
-  Parts parts(mesh.n_tetrahedra());
-  for_all(mesh, executor, [&](TetId t) { parts[t] = TetDuals(mesh, t).parts(); });
-  return parts;
-}
-
 std::vector<Offset> AccuracyEnergy::sums_of(const Parts& parts) const {
   std::vector<Offset> sums(factors_.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -138,23 +121,22 @@ AccuracyTotal AccuracyEnergy::of(const TetMesh& mesh, Gradient* gradient, Execut
       continue;
     }
     const auto [volume, moment] = sums[i];
-    const double over = factors_[i] / volume, n2 = squared_length(moment);
+    const double over = factors_[i] / volume, n2 = dot(moment, moment);
     total.energy += over > 0 ? over * n2 : HUGE_VAL;
     sums[i] = {-over / volume * n2, 2 * over * moment};
   }
   if (gradient == nullptr) return total;
-  IdVector<TetId, std::array<WeightedPoint, 4>> slopes(mesh.n_tetrahedra());
-  for_all(mesh, executor, [&](TetId t) {
-    TetParts by;
-    for (std::size_t e = 0; e < 6; ++e) by.edges[e] = sums[elements_[t].edges[e]];
+  const auto by = [&](TetId t) {
+    TetParts by_parts = {};
+    for (std::size_t e = 0; e < 6; ++e) by_parts.edges[e] = sums[elements_[t].edges[e]];
     for (std::size_t f = 0; f < 4; ++f) {
-      by.faces[f] = sums[elements_[t].faces[f]];
-      by.height[f] = by_height[TetMesh::halfface(t, static_cast<int>(f))];
+      by_parts.faces[f] = sums[elements_[t].faces[f]];
+      by_parts.height[f] = by_height[TetMesh::halfface(t, static_cast<int>(f))];
     }
-    slopes[t] = TetDuals(mesh, t).pulled_back(by);
-  });
+    return by_parts;
+  };
   *gradient = Gradient(mesh.n_vertices());
-  for (const TetId t : mesh.tetrahedra()) add_to(*gradient, mesh.corners(t), slopes[t]);
+  add_pulled_back(*gradient, mesh, by, executor);
   return total;
 }
 

@@ -73,7 +73,6 @@ class AccuracyEnergy {
   };
 
   using Parts = IdVector<TetId, TetParts>;
-  [[nodiscard]] static Parts parts_of(const TetMesh& mesh, Executor* executor);
   /// V and N of all elements.
   [[nodiscard]] std::vector<Offset> sums_of(const Parts& parts) const;
   /// Returns the barrier, and adds its derivatives by all heights.

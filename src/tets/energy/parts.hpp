@@ -1,7 +1,8 @@
 // Edges and faces with their duals, in parts of one tetrahedron each, and the derivatives of all parts at once.
 //
 // |σ| |σ*| and |σ| ∫_{σ*} (x − centroid of σ) of an edge or face σ are sums over the tetrahedra around σ, each part
-// with the signs of its heights. They are made of orthocenters, and so rational in positions and weights.
+// with the signs of its heights. They are made of orthocenters, and so rational in positions and weights. Kernels
+// compute eight tetrahedra at once (parts_kernel.hpp).
 //
 //       a ──── o      edge σ, seen along it: a and b are the orthocenters of its two faces in the tetrahedron, o is the
 //      /       │      orthocenter of the tetrahedron, and x the crossing of σ with the plane of its dual face. The part
@@ -10,65 +11,73 @@
 //                     face σ: the part of its dual edge leads from the orthocenter of σ to o.
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include <functional>
 
+#include "temper/detail/executor.hpp"
 #include "temper/tets/mesh.hpp"
+#include "tets/energy/lanes.hpp"
 
 namespace temper::tets {
 
 /// |σ| |σ*|, and |σ| ∫_{σ*} (x − centroid of σ).
-struct Offset {
-  double volume = 0;
-  Vec3 moment;
-  friend Offset operator+(const Offset& a, const Offset& b) { return {a.volume + b.volume, a.moment + b.moment}; }
+template <class T>
+struct OffsetOf {
+  T volume;
+  Vector<T> moment;
+  friend TEMPER_INLINE OffsetOf operator+(const OffsetOf& a, const OffsetOf& b) {
+    return {a.volume + b.volume, a.moment + b.moment};
+  }
 };
+using Offset = OffsetOf<double>;
 
 /// Quantities of a tetrahedron, or the derivatives of some function by each of them. The edges have
 /// the sequence of kEdgeCorners. Face k is opposite corner k.
-struct TetParts {
-  std::array<Offset, 6> edges;
-  std::array<double, 6> along = {};   ///< the crossing, as a part of the edge from its first corner
-  std::array<double, 6> square = {};  ///< of the length
-  std::array<Offset, 4> faces;
-  std::array<double, 4> height = {};  ///< h/ℓ
+template <class T>
+struct TetPartsOf {
+  static constexpr std::size_t kNumbers = 56;
+  OffsetOf<T> edges[6];
+  T along[6];   ///< the crossing, as a part of the edge from its first corner
+  T square[6];  ///< of the length
+  OffsetOf<T> faces[4];
+  T height[4];  ///< h/ℓ
+
+  /// Calls f(number) for all numbers, in one order.
+  template <class F>
+  TEMPER_INLINE void for_each(const F& f) {
+    const auto offset = [&f](OffsetOf<T>& o) { f(o.volume), f(o.moment.x), f(o.moment.y), f(o.moment.z); };
+    for (OffsetOf<T>& edge : edges) offset(edge);
+    for (T& number : along) f(number);
+    for (T& number : square) f(number);
+    for (OffsetOf<T>& face : faces) offset(face);
+    for (T& number : height) f(number);
+  }
 };
-
-/// A positive tetrahedron, with its orthocenters.
-class TetDuals {
- public:
-  TetDuals(const TetMesh& mesh, TetId t);
-
-  [[nodiscard]] TetParts parts() const;
-  /// The derivatives of a function by the corners, from those by the parts.
-  [[nodiscard]] std::array<WeightedPoint, 4> pulled_back(const TetParts& by) const;
-
- private:
-  struct Edge {
-    std::size_t i, j, left, right;  // its ends, and the faces of a and b
-    Vec3 vector, crossing, middle;
-    double square, along;
-  };
-  [[nodiscard]] Edge edge(std::size_t e) const;
-
-  std::array<Vec3, 4> at_;      // from the first corner
-  std::array<Vec3, 4> normal_;  // twice the areas of the faces, inward
-  std::array<Vec3, 4> center_;  // orthocenters of the faces
-  Vec3 orthocenter_;
-  double volume6_;
-  std::array<double, 4> weight_;
-};
-
+using TetParts = TetPartsOf<double>;
 using Gradient = IdVector<VertexId, WeightedPoint>;
 
-/// Adds the derivatives by the corners of a tetrahedron.
-inline void add_to(Gradient& gradient, const std::array<VertexId, 4>& corners,
-                   const std::array<WeightedPoint, 4>& by_corners) {
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto& [x, y, z, w] = by_corners[k];
-    WeightedPoint& to = gradient[corners[k]];
-    to = {to.x + x, to.y + y, to.z + z, to.w + w};
-  }
-}
+/// The parts of all tetrahedra, which are positive.
+[[nodiscard]] IdVector<TetId, TetParts> parts_of(const TetMesh& mesh, Executor* executor);
+/// Adds the derivatives of a function by all vertices, from those by the parts of each tetrahedron.
+void add_pulled_back(Gradient& gradient, const TetMesh& mesh, const std::function<TetParts(TetId)>& by,
+                     Executor* executor);
+
+/// Parts of eight tetrahedra: for_each() has the order of the numbers.
+struct alignas(64) PartsLanes {
+  Lane numbers[TetParts::kNumbers];
+};
+struct PartsKernels {
+  void (*parts)(const TetLanes& tetrahedra, PartsLanes& parts);
+  void (*pull_back)(const TetLanes& tetrahedra, const PartsLanes& by, TetLanes& by_corners);
+};
 
 }  // namespace temper::tets
+
+namespace temper::baseline {
+extern const tets::PartsKernels kPartsKernels;
+}
+namespace temper::avx2 {
+extern const tets::PartsKernels kPartsKernels;
+}
+namespace temper::avx512 {
+extern const tets::PartsKernels kPartsKernels;
+}

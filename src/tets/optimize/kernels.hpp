@@ -5,21 +5,11 @@
 
 #include <cstddef>
 
-#include "base/pack.hpp"
+#include "tets/energy/lanes.hpp"
 #include "tets/energy/star_kernel.hpp"
 #include "tets/optimize/newton_step.hpp"
 
 namespace temper::tets {
-
-// Plain arrays without functions, since the code that uses them is compiled for several instruction sets.
-
-/// A coordinate: one value for each lane.
-using Lane = double[kLanes];
-
-struct LanePoints {
-  Lane x, y, z, w;
-  void set(std::size_t lane, const WeightedPoint& p) { x[lane] = p.x, y[lane] = p.y, z[lane] = p.z, w[lane] = p.w; }
-};
 
 /// Eight faces of a link, as the star's center sees them.
 struct alignas(64) LinkLanes {
@@ -33,11 +23,6 @@ struct alignas(64) LinkLanes {
 struct Link {
   LinkLanes* blocks = nullptr;
   std::size_t faces = 0;
-};
-
-/// Eight tetrahedra. Lanes that are not used repeat others.
-struct alignas(64) TetLanes {
-  LanePoints corners[4];
 };
 
 /// Parameters of one sweep.

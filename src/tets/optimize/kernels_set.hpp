@@ -38,9 +38,7 @@ constexpr double kRegularShape = 0.048112522432468816;  // 1/√432: six volumes
 constexpr tets::Lane kNumbers = {0, 1, 2, 3, 4, 5, 6, 7};
 constexpr unsigned kAllLanes = (1U << kLanes) - 1;
 
-TEMPER_INLINE Point load(const tets::LanePoints& p) {
-  return {{Pack::load(p.x), Pack::load(p.y), Pack::load(p.z)}, Pack::load(p.w)};
-}
+TEMPER_INLINE Point load(const tets::LanePoints& p) { return tets::load<Pack>(p); }
 TEMPER_INLINE Point in_all_lanes(const WeightedPoint& p) {
   return {{Pack::all(p.x), Pack::all(p.y), Pack::all(p.z)}, Pack::all(p.w)};
 }

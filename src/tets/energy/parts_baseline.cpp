@@ -1,0 +1,1 @@
+#include "tets/energy/parts_set.hpp"
