@@ -62,6 +62,25 @@ TEMPER_INLINE Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// The cosine of the least dihedral angle of a tetrahedron.
+template <class T>
+TEMPER_INLINE T largest_dihedral_cosine(const Vector<T>& p, const Vector<T>& q, const Vector<T>& r,
+                                        const Vector<T>& s) {
+  const auto unit_normal = [](const Vector<T>& a, const Vector<T>& b, const Vector<T>& c) {
+    const Vector<T> n = cross(b - a, c - a);
+    return 1 / square_root(dot(n, n)) * n;
+  };
+  const Vector<T> normals[4] = {unit_normal(q, s, r), unit_normal(p, r, s), unit_normal(p, s, q), unit_normal(p, q, r)};
+  T most = all<T>(-1);
+  for (std::size_t f = 1; f < 4; ++f) {
+    for (std::size_t g = 0; g < f; ++g) {
+      const T cosine = -dot(normals[f], normals[g]);
+      most = select(cosine > most, cosine, most);
+    }
+  }
+  return most;
+}
+
 /// |v|² − w + w₀: the lift of v seen from an origin of weight w₀.
 template <class T, class W>
 TEMPER_INLINE T lift(const Vector<T>& v, const W& w, const W& w_origin) {

@@ -51,6 +51,8 @@ struct Kernels {
   /// A Newton step: over-relaxed, then plain, then halved, until the energy falls and shapes are kept.
   StarStep (*step)(const Link& link, const WeightedPoint& p, const Mobility& mobility,
                    const SweepParameters& parameters);
+  /// Says whether no dihedral angle at the center of a star gets a larger cosine than the most, or than there is.
+  bool (*keeps_angles)(const Link& link, const WeightedPoint& from, const WeightedPoint& to, double most_cosine);
   /// The energies of tetrahedra, and where their orthocenters are.
   Certainty (*tetrahedra)(const TetLanes& tetrahedra, double gamma, Lane& energies);
 };

@@ -135,6 +135,19 @@ TEMPER_INLINE bool is_certainly_positive(const Link& link, const WeightedPoint& 
   return true;
 }
 
+bool keeps_angles(const Link& link, const WeightedPoint& from, const WeightedPoint& to, double most_cosine) {
+  const Point before = in_all_lanes(from), now = in_all_lanes(to);
+  for (std::size_t b = 0; b < n_blocks(link); ++b) {
+    const LinkLanes& lanes = link.blocks[b];
+    const auto q = load(lanes.q).at, r = load(lanes.r).at, s = load(lanes.s).at;
+    const Pack cosine = tets::largest_dihedral_cosine(q, r, s, now.at);
+    const Mask kept = Pack::all(most_cosine) >= cosine;
+    if (kept.bits() == kAllLanes) continue;
+    if ((kept | (tets::largest_dihedral_cosine(q, r, s, before.at) >= cosine)).bits() != kAllLanes) return false;
+  }
+  return true;
+}
+
 StarStep step(const Link& link, const WeightedPoint& origin, const Mobility& mobility,
               const tets::SweepParameters& parameters) {
   const auto [here, spokes2] = look_around(link, origin, parameters.gamma);
@@ -183,6 +196,6 @@ tets::Certainty tetrahedra(const tets::TetLanes& tetrahedra, double gamma, tets:
 
 }  // namespace
 
-const tets::Kernels kTetKernels = {derivatives, step, tetrahedra};
+const tets::Kernels kTetKernels = {derivatives, step, keeps_angles, tetrahedra};
 
 }  // namespace temper::TEMPER_INSTRUCTION_SET

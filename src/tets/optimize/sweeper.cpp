@@ -29,19 +29,6 @@ bool is_positive(const TetMesh& mesh, std::span<const HalffaceId> link, const We
   });
 }
 
-/// Says whether no dihedral angle at the center of a link gets a larger cosine than the most, or than there is.
-bool keeps_angles(const TetMesh& mesh, std::span<const HalffaceId> link, const WeightedPoint& from,
-                  const WeightedPoint& to, double most_cosine) {
-  return most_cosine == 1 || std::all_of(link.begin(), link.end(), [&](HalffaceId h) {
-           const auto [q, r, s] = mesh.vertices(h);
-           const auto cosine = [&, q = q, r = r, s = s](const WeightedPoint& p) {
-             return largest_dihedral_cosine({mesh.position(q), mesh.position(r), mesh.position(s), p.position()});
-           };
-           const double now = cosine(to);
-           return now <= most_cosine || now <= cosine(from);
-         });
-}
-
 /// Numbers of tasks of some size for n items.
 std::size_t n_tasks(std::size_t n, std::size_t size) { return (n + size - 1) / size; }
 
@@ -87,7 +74,7 @@ WeightedPoint improved(const TetMesh& mesh, std::span<const HalffaceId> halfface
   const Link link = gather(mesh, halffaces, room);
   const auto [p, lower, certain] = kernels().step(link, origin, mobility, parameters);
   const bool is_kept = lower && is_exact(p) && (certain || is_positive(mesh, halffaces, p)) &&
-                       keeps_angles(mesh, halffaces, origin, p, parameters.most_cosine);
+                       (parameters.most_cosine == 1 || kernels().keeps_angles(link, origin, p, parameters.most_cosine));
   return is_kept ? p : origin;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/loops.hpp"
 #include "quality/measure.hpp"
+#include "tets/geometry/formulas.hpp"
 #include "tets/mesh/tables.hpp"
 
 namespace temper::tets {
@@ -29,22 +30,13 @@ double area(const FacePoints& face) {
 
 double length_of_area(double area) { return std::sqrt(4 / std::numbers::sqrt3 * area); }
 
-double largest_dihedral_cosine(const std::array<Vec3, 4>& corners) {
-  std::array<Vec3, 4> normals;
-  double most = -1;
-  for (std::size_t f = 0; f < 4; ++f) {
-    const auto [i, j, k] = TetMesh::kFaceCorners[f];
-    const Vec3 &p = corners[std::size_t(i)], &q = corners[std::size_t(j)], &r = corners[std::size_t(k)];
-    const Vec3 n = cross(q - p, r - p);
-    normals[f] = 1 / length(n) * n;
-    for (std::size_t g = 0; g < f; ++g) most = std::max(most, -dot(normals[f], normals[g]));
-  }
-  return most;
-}
-
 double largest_dihedral_cosine(const TetMesh& mesh, TetId t) {
+  const auto at = [&](VertexId v) {
+    const Vec3 p = mesh.position(v);
+    return Vector<double>{p.x, p.y, p.z};
+  };
   const auto& [p, q, r, s] = mesh.corners(t);
-  return largest_dihedral_cosine({mesh.position(p), mesh.position(q), mesh.position(r), mesh.position(s)});
+  return largest_dihedral_cosine(at(p), at(q), at(r), at(s));
 }
 
 double largest_dihedral_cosine(const TetMesh& mesh, Executor* executor) {

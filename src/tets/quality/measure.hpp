@@ -36,7 +36,6 @@ using FacePoints = std::array<WeightedPoint, 3>;
 [[nodiscard]] double length_of_area(double area);
 
 /// The cosine of the least dihedral angle of a tetrahedron or of a mesh.
-[[nodiscard]] double largest_dihedral_cosine(const std::array<Vec3, 4>& corners);
 [[nodiscard]] double largest_dihedral_cosine(const TetMesh& mesh, TetId t);
 [[nodiscard]] double largest_dihedral_cosine(const TetMesh& mesh, Executor* executor);
 
