@@ -1,3 +1,4 @@
+// How large the errors of a scheme are on a surface, in proportion: a descent of this energy lowers them.
 #include "surfaces/optimize/accuracy.hpp"
 
 #include <algorithm>
@@ -45,7 +46,8 @@ double margin_of(const std::array<WeightedPoint, 3>& triangle) {
   double least = kInfinity;
   for (std::size_t c = 0; c < 3; ++c) {
     const TriangleSide side(triangle, c);
-    least = std::min({least, side.height, 0.5 * (1 - std::abs(side.dw) / side.l)});
+    if (side.s2 == 0) return 0;
+    least = std::min({least, side.height, 0.5 * (1 - std::abs(side.dw) / side.l2)});
   }
   return least;
 }
@@ -82,7 +84,7 @@ double DraftAccuracy::value(const Draft& draft, std::vector<CornerSlopes>& slope
     AccuracyEdge<double> edge = {};
     edge.scale = edge_scale(sizes_[first[sides[0].i]], sizes_[first[sides[0].j]]);
     edge.height = e.is_boundary ? model_.boundary_height : model_.height;
-    edge.l2 = sides[0].l, edge.inverse_l2 = 1 / edge.l2, edge.dw = sides[0].dw;
+    edge.l2 = sides[0].l2, edge.inverse_l2 = 1 / edge.l2, edge.dw = sides[0].dw;
     edge.left = sides[0].height * edge.l2, edge.right = e.is_boundary ? 0 : sides[1].height * edge.l2;
     sum += edge_value(model_, edge);
     EdgeSlopes<double> slopes_of_edge = edge_slopes(model_, edge);
@@ -98,8 +100,8 @@ double DraftAccuracy::value(const Draft& draft, std::vector<CornerSlopes>& slope
     }
     for (std::size_t k = 0; k < n_sides; ++k) {
       SideSlopes by = sides[k].slopes_of_height(of[k]->g * edge.l2);
-      by.l += of[k]->g * sides[k].height;  // g = ℓ² h/ℓ
-      if (k == 0) by.l += slopes_of_edge.l, by.i += slopes_of_edge.dw, by.j -= slopes_of_edge.dw;
+      by.l2 += of[k]->g * sides[k].height;  // g = ℓ² h/ℓ
+      if (k == 0) by.l2 += slopes_of_edge.l, by.i += slopes_of_edge.dw, by.j -= slopes_of_edge.dw;
       sides[k].add(by, slopes[e.sides[k].triangle]);
     }
   }

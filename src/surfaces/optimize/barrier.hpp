@@ -40,16 +40,16 @@ struct SmoothLog {
     const SmoothLog height = smooth_log(side.height, gamma);
     e.value -= height.value;
     SideSlopes by = side.slopes_of_height(-height.slope);
-    by.l += 1 / squares;
+    by.l2 += 1 / squares;
     if (c == 0) {
       e.value += portable_log(squares / (6 * std::sqrt(side.s2)));
-      by.r -= side.l / (2 * side.s2), by.q += side.q / side.s2, by.l -= side.r / (2 * side.s2);
+      by.r -= side.l2 / (2 * side.s2), by.q += side.q / side.s2, by.l2 -= side.r / (2 * side.s2);
     }
     for (const double half : {0.5, -0.5}) {
-      const SmoothLog crossing = smooth_log(0.5 + half * side.dw / side.l, gamma);
+      const SmoothLog crossing = smooth_log(0.5 + half * side.dw / side.l2, gamma);
       e.value -= crossing.value;
       const double slope = -crossing.slope * half;
-      by.i += slope / side.l, by.j -= slope / side.l, by.l -= slope * side.dw / (side.l * side.l);
+      by.i += slope / side.l2, by.j -= slope / side.l2, by.l2 -= slope * side.dw / (side.l2 * side.l2);
     }
     side.add(by, e);
   }

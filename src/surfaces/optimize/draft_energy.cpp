@@ -1,3 +1,4 @@
+// One descent moves points and changes weights, because most bad triangles need both.
 #include "surfaces/optimize/draft_energy.hpp"
 
 #include <algorithm>
@@ -10,6 +11,8 @@ namespace {
 
 // A step must lower the mean energy of a triangle by this, or the accuracy energy by this part.
 constexpr double kSmallGain = 1e-5;
+// Below this width the derivatives of a triangle are so large that no other vertex would move.
+constexpr double kLeastWidth = 1e-9;
 
 /// Two unit vectors across a normal.
 std::array<Vec3, 2> tangents_of(Vec3 normal) {
@@ -26,10 +29,13 @@ DraftEnergy::DraftEnergy(Draft& draft, double gamma)
   IdVector<VertexId, Vec3> normals(n);
   IdVector<VertexId, double> lengths(n, 0.0), counts(n, 0.0);
   for (std::size_t e = 0; e < n_elements(); ++e) {
-    const Vec3 normal = normal_of(e, first_);
-    normals_.push_back((1 / squared_length(normal)) * normal);
+    const auto [p, q, r] = draft.corners(e);
+    const bool is_sliver = !(width_of({p.position(), q.position(), r.position()}) > kLeastWidth);
+    const Vec3 normal = is_sliver ? Vec3{} : normal_of(e, first_);
+    normals_.push_back(is_sliver ? normal : (1 / squared_length(normal)) * normal);
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId a = corners(e)[k], b = corners(e)[(k + 1) % 3];
+      if (is_sliver) draft.tracks[a] = kHeld;
       normals[a] = normals[a] + normal;
       const double l = length(first_[b].position() - first_[a].position());
       lengths[a] += l, lengths[b] += l;
@@ -77,7 +83,7 @@ void DraftEnergy::place(const std::vector<double>& step, double part) {
 
 bool DraftEnergy::is_inside() const {
   for (std::size_t e = 0; e < n_elements(); ++e) {
-    if (!(room(e) > 0)) return false;
+    if (has_normal(e) && !(room(e) > 0)) return false;
   }
   return true;
 }
@@ -88,6 +94,7 @@ DraftEnergy::Value DraftEnergy::value() const {
   if (accuracy_) sum.lowered = accuracy_->value(draft_, slopes);
   sum.gradient.assign(kUnknowns * draft_.points.size(), 0);
   for (std::size_t e = 0; e < n_elements(); ++e) {
+    if (!has_normal(e)) continue;
     if (!accuracy_) {
       const BarrierValue of = barrier(draft_.corners(e), gamma_);
       sum.lowered += of.value;

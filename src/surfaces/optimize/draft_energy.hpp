@@ -25,8 +25,9 @@ class DraftEnergy {
     std::vector<double> gradient;
   };
 
+  /// Leaves out triangles whose normal is rounding, and holds their corners, in `draft` too.
   DraftEnergy(Draft& draft, double gamma);
-  /// Holds the corners of triangles without a floor, in `draft` too.
+  /// Holds the corners of triangles without a floor, too.
   DraftEnergy(Draft& draft, const AccuracyModel& model);
 
   [[nodiscard]] std::size_t n_elements() const { return draft_.triangles.size(); }
@@ -49,6 +50,7 @@ class DraftEnergy {
  private:
   /// Adds derivatives in a triangle to those by the unknowns.
   void add(std::size_t e, const CornerSlopes& slopes, std::vector<double>& gradient) const;
+  [[nodiscard]] bool has_normal(std::size_t e) const { return normals_[e] != Vec3{}; }
   [[nodiscard]] Vec3 normal_of(std::size_t e, const IdVector<VertexId, WeightedPoint>& points) const {
     const auto& [a, b, c] = draft_.triangles[e];
     return surfaces::normal_of(points[a].position(), points[b].position(), points[c].position());
@@ -58,7 +60,7 @@ class DraftEnergy {
   double gamma_;
   IdVector<VertexId, WeightedPoint> first_, start_;
   std::optional<DraftAccuracy> accuracy_;
-  std::vector<Vec3> normals_;                         ///< Normals of the triangles at first, over their squares
+  std::vector<Vec3> normals_;                         ///< Normals of the triangles at first, over their squares; or 0
   IdVector<VertexId, std::array<Vec3, 2>> tangents_;  ///< In units of the mean edge
   IdVector<VertexId, double> areas_;                  ///< Squares of the mean edges
 };

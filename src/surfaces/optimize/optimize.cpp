@@ -23,8 +23,8 @@ std::optional<InputError> expect_options(const SurfaceOptions& o) {
     return InputError{ErrorCode::invalid_option, "", name + ": expected " + expected + ", found " + to_text(found)};
   };
   if (!(o.margin > 0 && o.margin < 0.5)) return error("margin", "a number above 0 and below 0.5", o.margin);
-  if (!(o.surface_distance >= 0 && o.surface_distance < 1))
-    return error("surface_distance", "a number from 0 to below 1", o.surface_distance);
+  if (!(o.surface_distance >= 0 && o.surface_distance <= 1))
+    return error("surface_distance", "a number from 0 to 1", o.surface_distance);
   if (!(o.crease_angle_deg >= 1 && o.crease_angle_deg <= 180))
     return error("crease_angle_deg", "an angle from 1 to 180 degrees", o.crease_angle_deg);
   if (o.repair_trials < 0) return error("repair_trials", "a number from 0 on", o.repair_trials);

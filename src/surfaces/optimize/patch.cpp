@@ -169,7 +169,7 @@ bool Patch::flip(VertexId a, VertexId b) {
   const VertexId c = left->across, d = right->across;
   if (c == d || has_edge(c, d)) return false;
   Corners &s = draft_.triangles[left->triangle], &t = draft_.triangles[right->triangle];
-  const Vec3 n = normal(s), m = normal(t), mean = (1 / length(n)) * n + (1 / length(m)) * m;
+  const Vec3 n = normal(s), m = normal(t), mean = unit(n) + unit(m);
   const Corners one = {d, c, a}, other = {c, d, b};
   for (const Corners& made : {one, other}) {
     if (!(dot(normal(made), mean) > kLeastFacing * length(normal(made)) * length(mean))) return false;
@@ -226,13 +226,14 @@ bool Patch::collapse(VertexId a, VertexId b) {
 }
 
 void Patch::descend(const Run& run) {
+  const IdVector<VertexId, Track> tracks = draft_.tracks;
   for (const double gamma : kGammas) {
     DraftEnergy energy(draft_, gamma);
     energy.lower(kStepsOfPatch, [&run] { return run.must_stop(); });
     energy.project(run.nearness.input(), {});
   }
   // Projections lower margins, so the weights alone follow.
-  const auto tracks = std::exchange(draft_.tracks, IdVector<VertexId, Track>(draft_.tracks.size(), kHeld));
+  draft_.tracks.assign(tracks.size(), kHeld);
   for (const double gamma : kGammas)
     DraftEnergy(draft_, gamma).lower(kStepsOfPatch, [&run] { return run.must_stop(); });
   draft_.tracks = tracks;

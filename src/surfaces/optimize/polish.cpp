@@ -27,6 +27,11 @@ std::size_t n_below(const SurfaceMesh& mesh, double margin) {
   return n;
 }
 
+double accuracy_energy_of(const SurfaceMesh& mesh, const AccuracyModel& model) {
+  Draft draft = weights_of(mesh);
+  return DraftEnergy(draft, model).value().lowered;
+}
+
 }  // namespace
 
 std::optional<State> Run::lowered(const State& state, const AccuracyModel& model, int steps, double least_margin,
@@ -84,7 +89,7 @@ State Run::polished(State state) {
     ++report.sweeps;
     const double gain = next ? next->gain : 0;
     if (gain > 0) state = *std::move(next);
-    record({.energy = energy_of(state.mesh, kLastGamma), .bad = state.bad, .length_parameter = kLastGamma});
+    record({.energy = accuracy_energy_of(state.mesh, model), .bad = state.bad, .objective = Objective::accuracy});
     offer(state);
     if (gain > 0 && gain < kSmallPart) break;
     if (gain <= 0) steps = steps > 0 ? steps / 2 : -1;  // at last the weights alone

@@ -42,6 +42,9 @@ std::optional<State> best_edit(Run& run, const State& state, TriangleId center, 
   if (!best) return std::nullopt;
   std::optional<State> next = best->applied();
   if (!next) return std::nullopt;
+  for (const VertexId v : next->mesh.vertices()) {
+    if (run.without_tiny(next->mesh.position(v)) != next->mesh.position(v)) return std::nullopt;
+  }
   next->bad = run.bad(next->mesh);
   if (next->bad >= state.bad || turns_of(next->mesh, 0).largest_deg > run.limit.sharpest) return std::nullopt;
   Nearness::Known known = run.nearness.after_edit(state.mesh, patch.cells(), next->mesh);

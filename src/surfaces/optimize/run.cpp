@@ -56,14 +56,14 @@ SurfaceMesh Run::result(const State& state) const {
   SurfaceMesh mesh = scaled(state.mesh, unit);
   Mesh& connectivity = SurfaceEditor(mesh).connectivity();
   for (const auto& [a, b] : state.creases) connectivity.set_constrained(connectivity.find_halfedge(a, b), false);
-  // Rounding can leave numbers so small that files refuse them.
-  constexpr ExactRange kRange = kCoordinatesInSpace;
-  for (const VertexId v : mesh.vertices()) {
-    const Vec3 p = mesh.position(v);
-    mesh.set_position(v, {kRange.without_tiny(p.x), kRange.without_tiny(p.y), kRange.without_tiny(p.z)});
-    mesh.set_weight(v, kRange.squared().without_tiny(mesh.weight(v)));
-  }
+  for (const VertexId v : mesh.vertices())
+    mesh.set_weight(v, kCoordinatesInSpace.squared().without_tiny(mesh.weight(v)));
   return mesh;
+}
+
+Vec3 Run::without_tiny(Vec3 p) const {
+  const ExactRange range = {kCoordinatesInSpace.low / unit, kCoordinatesInSpace.high / unit};
+  return {range.without_tiny(p.x), range.without_tiny(p.y), range.without_tiny(p.z)};
 }
 
 double Run::seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
@@ -103,8 +103,15 @@ void Run::offer(const State& found) {
 
 bool Run::take(State& state, Draft& draft, const IdVector<VertexId, WeightedPoint>& first,
                Nearness::Known& known) const {
+  bool is_rounded = false;
+  for (WeightedPoint& p : draft.points) {
+    const Vec3 at = without_tiny(p.position());
+    is_rounded = is_rounded || at != p.position();
+    p = {at.x, at.y, at.z, p.w};
+  }
+  if (is_rounded) go_back(draft, first, limit);
   constexpr int kTries = 8;
-  for (int i = 0; i < kTries && !must_stop(); ++i) {
+  for (int i = 0; i < kTries; ++i) {
     for (const VertexId v : state.mesh.vertices()) {
       state.mesh.set_position(v, draft.points[v].position());
       state.mesh.set_weight(v, draft.points[v].w);
@@ -127,7 +134,6 @@ void Run::move_all(State& state, bool with_weights) {
     const IdVector<VertexId, WeightedPoint> first = draft.points;
     DraftEnergy energy(draft, gamma);
     energy.lower(kSteps, [this] { return must_stop(); });
-    if (must_stop()) break;
     energy.project(nearness.input(), limit);
     if (!take(state, draft, first, known)) state.mesh = before;
     std::size_t flips = 0;

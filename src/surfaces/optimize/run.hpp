@@ -72,6 +72,8 @@ struct Run {
 
   /// The mesh of a state as the user has it: in the user's units, and creases are not constrained.
   [[nodiscard]] SurfaceMesh result(const State& state) const;
+  /// A position with 0 for coordinates so small that files refuse them.
+  [[nodiscard]] Vec3 without_tiny(Vec3 p) const;
   /// Asks the clock and the caller. Once the answer is yes, it stays, and the report has the reason.
   [[nodiscard]] bool must_stop() const;
   /// Puts a mesh into the history, and shows the progress.

@@ -508,6 +508,32 @@ TEST(SurfaceOptimize, AnotherUnitOfLengthChangesNothingElse) {
   }
 }
 
+TEST(SurfaceOptimize, TheLimitOfDistanceHoldsForNumbersThatFilesRefuse) {
+  constexpr double kUnit = 1e-59, kLeast = 1e-60;
+  const auto allowed = [](double x) { return std::abs(kUnit * x) < kLeast ? 0 : kUnit * x; };
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SurfaceMesh mesh = shaken_torus(0.3, seed);
+    for (const VertexId v : mesh.vertices()) {
+      const Vec3 p = mesh.position(v);
+      mesh.set_position(v, {allowed(p.x), allowed(p.y), allowed(p.z)});
+    }
+    const SurfaceMesh input = mesh;
+    SurfaceOptions options;
+    options.surface_distance = 0.02;
+    options.observer = [](const Progress& now) { return now.last.sweep < 3 ? Continue::yes : Continue::no; };
+    const SurfaceReport report = optimized(mesh, options);
+    EXPECT_LT(report.violations_after, report.violations_before);
+    const double found = std::max(sampled_distance(mesh, input, 50, 1), sampled_distance(input, mesh, 50, 2));
+    EXPECT_GT(found, 0);
+    EXPECT_LE(found, report.surface_distance);
+    EXPECT_LE(report.surface_distance, options.surface_distance * report.diagonal * (1 + 1e-12));
+    for (const VertexId v : mesh.vertices()) {
+      const Vec3 p = mesh.position(v);
+      for (const double x : {p.x, p.y, p.z}) EXPECT_TRUE(x == 0 || std::abs(x) >= kLeast);
+    }
+  }
+}
+
 TEST(SurfaceOptimize, WithoutDistanceVerticesMoveInPlanesAlone) {
   for (const bool is_curved : {false, true}) {
     SurfaceMesh mesh = is_curved ? rough_grid(6, 0.2, 1) : test::mesh_of(shaken_box({5, 5, 5}, 0.25, 3));
@@ -561,7 +587,7 @@ TEST(SurfaceOptimize, NoEdgeTurnsMoreThanTheSharpestOfTheInputAndFewAreSharp) {
 TEST(SurfaceOptimize, FewEdgesAreSharpWhereARunWithoutALimitMakesMany) {
   // With the limit there are 5, without it 43.
   std::size_t sharp = 0;
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SurfaceMesh mesh = shaken_torus(0.3, seed);
     SurfaceOptions options;
     options.crease_angle_deg = 40;
@@ -912,7 +938,7 @@ TEST(SurfaceOptimize, SmallerErrorsDecide) {
 }
 
 TEST(SurfaceSlide, IsNotWorseThanVerticesThatStay) {
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const SurfaceMesh input = test::mesh_of(shaken_cylinder(14, 4, 0.25, seed));
     SurfaceOptions options;
     options.surface_distance = 0.01;
@@ -960,6 +986,49 @@ TEST(SurfaceOptimize, ATriangleWhoseAreaIsRoundingCostsNoTime) {
   for (const VertexId v : mesh.vertices()) EXPECT_TRUE(std::isfinite(mesh.weight(v)));
 }
 
+/// A box with a vertex close to an inner edge of a face. The height over the edge is a part of the triangle's. If that
+/// is 0, the height is so small that the normal is 0 in doubles.
+test::SurfaceArrays with_sliver(test::SurfaceArrays box, std::uint64_t seed, double height = 0) {
+  Rng rng(seed);
+  const auto in_plane = [](Vec3 p) { return Vec2{p.x, p.y}; };
+  while (true) {
+    const std::size_t t = rng.below(static_cast<std::uint32_t>(box.triangles.size()));
+    const auto [a, b, c] = box.triangles[t];
+    const auto point = [&](std::int32_t v) { return box.points[static_cast<std::size_t>(v)]; };
+    const Vec3 p = point(a), q = point(b), r = point(c), m = p + rng.uniform(0.2, 0.8) * (q - p) + height * (r - p);
+    const bool is_inside = p.z == q.z && p.z == r.z && (p.x != std::round(p.x) || q.x != std::round(q.x));
+    const Sign side = orient2d(in_plane(p), in_plane(q), in_plane(m));
+    if (!is_inside || side != orient2d(in_plane(p), in_plane(q), in_plane(r)) ||
+        (height == 0 && normal_of(p, q, m) != Vec3{}))
+      continue;
+    const auto added = static_cast<std::int32_t>(box.points.size());
+    box.points.push_back(m);
+    box.triangles[t] = {a, added, c};
+    box.triangles.insert(box.triangles.end(), {{added, b, c}, {a, b, added}});
+    return box;
+  }
+}
+
+TEST(SurfaceDraft, ASliverBlocksItsOwnVerticesAlone) {
+  const auto gain = [](const test::SurfaceArrays& box) {
+    const SurfaceMesh mesh = test::mesh_of(box);
+    Draft draft = draft_of_all(mesh);
+    DraftEnergy energy(draft, 0.1);
+    const double before = energy.value().lowered;
+    energy.lower(30, [] { return false; });
+    EXPECT_TRUE(energy.is_inside());
+    for (const WeightedPoint& p : draft.points) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z + p.w));
+    return before - energy.value().lowered;
+  };
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const test::SurfaceArrays box = shaken_box({6, 6, 6}, 0.3, seed);
+    const double usual = gain(box);
+    EXPECT_GT(usual, 0);
+    for (const double height : {0.0, 1e-15, 1e-13, 1e-11, 1e-9, 1e-7})
+      EXPECT_GT(gain(with_sliver(box, seed, height)), 0.8 * usual) << seed << ", " << height;
+  }
+}
+
 TEST(SurfaceOptimize, TargetsOfDualsHaveTheCoefficientsOfWellCenteredMeshes) {
   for (const Criterion criterion : {Criterion::coefficients, Criterion::distances}) {
     SurfaceMesh all = shaken_torus(0.3, 1), one = all;
@@ -996,6 +1065,32 @@ TEST(SurfaceOptimize, AStopKeepsWhatTheWellCenteredRunHasReached) {
   EXPECT_TRUE(has_reached_some);
 }
 
+TEST(SurfaceOptimize, AStopInTheFirstRoundKeepsWhatIsBetter) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const SurfaceMesh input = shaken_torus(0.35, seed);
+    SurfaceMesh one = input, weighted = input, stopped = input;
+    int asked = 0, at_first_round = 0;
+    SurfaceOptions options;
+    options.surface_distance = 0.02;
+    options.must_stop = [&] { return ++asked, false; };
+    options.observer = [&](const Progress& now) {
+      if (now.last.sweep == 1) at_first_round = asked;
+      return now.last.sweep == 1 ? Continue::no : Continue::yes;
+    };
+    static_cast<void>(optimized(one, options));
+    ASSERT_GT(at_first_round, 3);
+    options.observer = {};
+    int left = at_first_round - 3;
+    options.must_stop = [&] { return --left < 0; };
+    const SurfaceReport report = optimized(stopped, options);
+    EXPECT_EQ(report.stopped, Stopped::canceled);
+    EXPECT_LE(report.surface_distance, options.surface_distance * report.diagonal);
+    options.must_stop = {};
+    options.may_move = false;
+    EXPECT_LT(report.violations_after, optimized(weighted, options).violations_after);
+  }
+}
+
 TEST(SurfaceOptimize, TargetsOfDualsAreMet) {
   for (const Criterion criterion : {Criterion::coefficients, Criterion::distances}) {
     SurfaceMesh mesh = shaken_torus(0.35, 4);
@@ -1007,6 +1102,26 @@ TEST(SurfaceOptimize, TargetsOfDualsAreMet) {
     EXPECT_EQ(report.violations_after, 0U);
     EXPECT_TRUE(meets(mesh, criterion));
   }
+}
+
+TEST(SurfaceOptimize, TheHistorySaysWhichObjectiveARoundLowers) {
+  SurfaceMesh mesh = shaken_torus(0.3, 1);
+  SurfaceOptions options;
+  options.surface_distance = 0.02;
+  const SurfaceReport report = optimized(mesh, options);
+  std::vector<double> accuracy;
+  for (const SweepRecord& record : report.history) {
+    if (record.objective == Objective::energy) {
+      EXPECT_GT(record.length_parameter, 0);
+      EXPECT_TRUE(record.bad > 0 || accuracy.empty());
+    } else {
+      EXPECT_EQ(record.objective, Objective::accuracy);
+      EXPECT_EQ(record.bad, 0U);
+      accuracy.push_back(record.energy);
+    }
+  }
+  ASSERT_GT(accuracy.size(), 2U);
+  EXPECT_LT(accuracy.back(), accuracy.front());
 }
 
 TEST(SurfaceOptimize, ListenersGetTheBestMeshSoFar) {
