@@ -54,9 +54,10 @@ void add_errors([[maybe_unused]] const OptimizeSettings& s, [[maybe_unused]] con
   const bool is_early = stopped_early(results.report.stopped);
   if (!is_early && !interrupted()) errors.emplace(before, threads);
   if (is_early || interrupted()) {
-    const std::string text =
-        "--measure-errors: a time limit or a signal ended the run, so nothing was measured. Next: ";
-    return warn(results, std::vector{text + fmt::format("temper errors {} --against {}", s.output.path, s.input)});
+    const std::string text = is_early ? "a time limit or a signal ended the run, so nothing was measured"
+                                      : "a signal came after the run, so nothing was measured; the mesh is complete";
+    return warn(results, std::vector{"--measure-errors: " + text + ". Next: " +
+                                     fmt::format("temper errors {} --against {}", s.output.path, s.input)});
   }
   errors->measure_result(after);
   results.errors_text = errors->text(text_style());

@@ -34,7 +34,8 @@ void expect_finite(const std::vector<Vec3>& points, const InputNames& names) {
            "), expected finite numbers");
     }
     if (!std::isfinite(p.z)) {
-      fail(ErrorCode::not_finite, names.point_where(i), names.point(i), " has z = ", p.z, ", expected a finite number");
+      fail(ErrorCode::not_finite, names.point_where(i), names.point(i), " has z = ", p.z,
+           ", expected a finite number. Next: give its place");
     }
   }
 }

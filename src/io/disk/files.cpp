@@ -44,7 +44,16 @@ Source load(const std::string& path, const LookAtBeginning& look) {
     bytes.resize(had + std::fread(bytes.data() + had, 1, bytes.size() - had, file.get()));
     return bytes.size() > had;
   };
-  if (read_up_to(kChunk) && look) look(bytes, std::max<std::uint64_t>(there.bytes, bytes.size()));
+  read_up_to(kChunk);
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);  // mark of UTF-8
+  // Text whose lines end in CR alone. Binary files have zeros.
+  const auto has = [&bytes](char c) { return bytes.find(c) != std::string::npos; };
+  const bool has_returns = has('\r') && !has('\n') && !has('\0');
+  const auto end_lines = [&] {
+    if (has_returns) std::replace(bytes.begin(), bytes.end(), '\r', '\n');
+  };
+  end_lines();
+  if (!bytes.empty() && look) look(bytes, std::max<std::uint64_t>(there.bytes, bytes.size()));
   const auto size = static_cast<std::size_t>(there.bytes);
   bytes.reserve(size + kChunk);  // the last look for more bytes must not move them all
   read_up_to(size);
@@ -55,6 +64,7 @@ Source load(const std::string& path, const LookAtBeginning& look) {
            " GiB. Next: write it to a file, and read that");
   }
   if (std::ferror(file.get())) fail(ErrorCode::not_found, path, "cannot be read: ", reason(errno));
+  end_lines();
   if (bytes.empty()) fail(ErrorCode::empty_input, path, "the file is empty");
   source.allocation = AllocationLimits(bytes.size());
   return source;

@@ -77,6 +77,13 @@ void warn_of_parallel(Document& d) {
                                  "of a sphere"));
 }
 
+[[noreturn]] void refuse_place(const Document& d, std::size_t i) {
+  const Vec3 p = d.place(i);
+  const std::string z = d.file.dimension() == 3 || !d.heights.empty() ? text(", ", p.z) : "";
+  fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has coordinates (", p.x, ", ", p.y, z,
+       "), expected finite numbers. Next: give its place");
+}
+
 /// Takes z of the points as point data of a mesh of the plane.
 void make_z_data(Document& d) {
   MeshFile& f = d.file;
@@ -138,9 +145,7 @@ void check_tetrahedra(Document& d) {
   check_ranges(d);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     const Vec3 p = d.place(i);
-    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-    fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has coordinates (", p.x, ", ", p.y, ", ",
-         p.z, "), expected finite numbers. Next: give its place");
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) refuse_place(d, i);
   }
   check_weights(d);
   if (d.heights.empty()) d.heights.assign(f.points.size(), d.z);
@@ -163,10 +168,7 @@ void check(Document& d, const ReadOptions& options) {
   check_ranges(d);
   cut_quadrilaterals(f, *d.names, d.fourth_corners, d.heights);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    const Vec2 p = f.points[i];
-    if (std::isfinite(p.x) && std::isfinite(p.y)) continue;
-    fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has coordinates (", p.x, ", ", p.y,
-         "), expected finite numbers");
+    if (!std::isfinite(f.points[i].x) || !std::isfinite(f.points[i].y)) refuse_place(d, i);
   }
   if (!std::isfinite(d.z)) fail(ErrorCode::not_finite, d.names->point_where(0), d.names->point(0), " has z = ", d.z);
   d.file.set_z(d.z);

@@ -100,8 +100,10 @@ class StlReader {
         for (int k = 0; k < 3; ++k) static_cast<void>(scanner.real("a normal"));
         expect("outer"), expect("loop");
         std::array<Vec3, 3> corners;
-        for (Vec3& p : corners) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          Vec3& p = corners[k];
           expect("vertex");
+          corner_lines_[k] = static_cast<std::int64_t>(scanner.line());
           p.x = scanner.real("the x coordinate of a vertex");
           p.y = scanner.real("the y coordinate of a vertex");
           p.z = scanner.real("the z coordinate of a vertex");
@@ -121,17 +123,18 @@ class StlReader {
       ++n_flat_;
       return false;
     }
-    document_.file.triangles.corners.push_back({point(corners[0]), point(corners[1]), point(corners[2])});
+    document_.file.triangles.corners.push_back({point(corners, 0), point(corners, 1), point(corners, 2)});
     return true;
   }
 
-  std::int32_t point(Vec3 p) {
-    p = {p.x + 0.0, p.y + 0.0, p.z + 0.0};  // −0 is the same place as 0
+  std::int32_t point(const std::array<Vec3, 3>& corners, std::size_t k) {
+    const Vec3 p = corners[k] + Vec3{};  // −0 is the same place as 0
     MeshFile& f = document_.file;
     const auto [found, is_new] = points_.try_emplace(p, static_cast<std::int32_t>(f.points.size()));
     if (is_new) {
       f.points.push_back({p.x, p.y});
       plane_.add(f.points.size() - 1, p.z);
+      if (corner_lines_[k] > 0) document_.names->point_lines.push_back(corner_lines_[k]);
     }
     return found->second;
   }
@@ -140,6 +143,7 @@ class StlReader {
   Document document_;
   PlaneCheck plane_;
   std::unordered_map<Vec3, std::int32_t, PlaceHash> points_;
+  std::array<std::int64_t, 3> corner_lines_ = {};  ///< Of a text
   std::size_t n_read_ = 0, n_flat_ = 0;
 };
 

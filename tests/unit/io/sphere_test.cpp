@@ -197,7 +197,8 @@ TEST_F(SphereFiles, WhatIsWrongIsNamedByFileAndLine) {
   EXPECT_EQ(obj(octahedron + "v 0 0 1\n" + faces).substr(0, 48), "m.obj:6: point 3 and point 6 are both at (0, 0, ");
   EXPECT_EQ(obj(octahedron + "v 0 0 -1\nf 1 4 3\n" + faces),
             "m.obj:7: triangle 1 has zero area: its corners point 1, point 4 and point 3 are on one great circle");
-  EXPECT_EQ(obj(octahedron + "v 0 0 nan\n" + faces), "m.obj:6: point 6 has z = nan, expected a finite number");
+  EXPECT_EQ(obj(octahedron + "v 0 0 nan\n" + faces),
+            "m.obj:6: point 6 has z = nan, expected a finite number. Next: give its place");
 
   const auto fesom = [&](const std::string& points, const std::string& triangles) {
     std::filesystem::remove(path("elem2d.out"));

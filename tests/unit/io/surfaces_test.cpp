@@ -198,6 +198,15 @@ TEST_F(FilesOfSurfaces, BadFilesAreNamed) {
   EXPECT_EQ(error_of("m.stl", begin), "m.stl:6: the file ends where vertex was expected");
   EXPECT_EQ(error_of("m.stl", begin + "vertex 0 1 inf\nendloop\nendfacet\nendsolid\n"),
             "m.stl:6: a corner has coordinates (0, 1, inf), expected finite numbers. Next: give its place");
+  EXPECT_EQ(
+      error_of("m.stl", begin + "vertex 0 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 0 1 0\n" +
+                            "vertex 1 0 0\nvertex 1 1 1e70\nendloop\nendfacet\nendsolid\n")
+          .substr(0, 34),
+      "m.stl:13: point 4 has coordinates ");
+  EXPECT_EQ(error_of("m.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n"),
+            "m.obj:2: point 2 has z = nan, expected a finite number. Next: give its place");
+  EXPECT_EQ(error_of("m.obj", "v 0 0 0\nv nan 0 1\nv 0 1 0\nf 1 2 3\n"),
+            "m.obj:2: point 2 has coordinates (nan, 0, 1), expected finite numbers. Next: give its place");
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1.5\n";
   EXPECT_EQ(error_of("m.obj", points + "f 1 2 3\nf 2 1 4\nf 1 2 5\n"),
             "m.obj:8: the edge from point 1 to point 2 belongs to 3 triangles (triangle 1 and triangle 3 among them); "
@@ -209,6 +218,27 @@ TEST_F(FilesOfSurfaces, BadFilesAreNamed) {
             "m.obj:7: triangle 2 uses vertex 9, but the file has 5 vertices, numbered from 1");
   EXPECT_EQ(error_of("m.obj", points + "f 1 2 3\nf 1 5 1\nf 1 4 5\n").substr(0, 34),
             "m.obj:7: triangle 2 has zero area:");
+}
+
+TEST_F(FilesOfSurfaces, TextMayBeginWithAMarkAndEndItsLinesInOtherWays) {
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 2 4 3\n";
+  const std::string stl =
+      "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 1\nendloop\nendfacet\n"
+      "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 1\nendloop\nendfacet\nendsolid s\n";
+  for (const std::string& text : {obj, stl}) {
+    const std::string name = text == obj ? "m.obj" : "m.stl";
+    const auto usual = read(make(name, text));
+    ASSERT_TRUE(usual) << usual.error().what();
+    std::string returns = text, both;
+    std::replace(returns.begin(), returns.end(), '\n', '\r');
+    for (const char c : text) both += c == '\n' ? "\r\n" : std::string(1, c);
+    for (const std::string& other : {returns, both, "\xEF\xBB\xBF" + text, "\xEF\xBB\xBF" + returns}) {
+      const auto found = read(make(name, other));
+      ASSERT_TRUE(found) << found.error().what();
+      EXPECT_EQ(found->points, usual->points);
+      EXPECT_EQ(found->triangles.corners, usual->triangles.corners);
+    }
+  }
 }
 
 TEST_F(FilesOfSurfaces, DataFollowTheSurface) {
