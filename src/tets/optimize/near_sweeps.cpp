@@ -47,46 +47,67 @@ std::vector<VertexId> centers(const Draft& draft, const std::vector<TetId>& tetr
   return centers;
 }
 
-std::vector<VertexId> corners_of(const TetMesh& mesh, const std::vector<TetId>& tetrahedra, int rings) {
+/// Adds the vertices of all tetrahedra around some vertices.
+std::vector<VertexId> with_neighbors(const TetMesh& mesh, const VertexStars& stars, std::vector<VertexId> vertices) {
+  const std::size_t n = vertices.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (const HalffaceId h : stars.link(vertices[i])) {
+      for (const VertexId u : mesh.vertices(h)) vertices.push_back(u);
+    }
+  }
+  sort_unique(vertices);
+  return vertices;
+}
+
+std::vector<VertexId> corners_of(const TetMesh& mesh, const VertexStars& stars, const std::vector<TetId>& tetrahedra,
+                                 int rings) {
   std::vector<VertexId> corners;
   for (const TetId t : tetrahedra) {
     for (const VertexId v : mesh.corners(t)) corners.push_back(v);
   }
   sort_unique(corners);
-  if (rings == 0) return corners;
-  const VertexStars stars(mesh);
-  for (int i = 0; i < rings; ++i) {
-    std::vector<VertexId> wider = corners;
-    for (const VertexId v : corners) {
-      for (const HalffaceId h : stars.link(v)) {
-        for (const VertexId u : mesh.vertices(h)) wider.push_back(u);
-      }
-    }
-    sort_unique(wider);
-    corners = std::move(wider);
-  }
+  for (int i = 0; i < rings; ++i) corners = with_neighbors(mesh, stars, std::move(corners));
   return corners;
+}
+
+/// The tetrahedra around some vertices and their neighbors. No other has a dual that depends on these vertices.
+Patch patch_around(PatchMaker& maker, const TetMesh& mesh, const std::vector<VertexId>& vertices) {
+  std::vector<TetId> tetrahedra;
+  for (const VertexId v : with_neighbors(mesh, maker.stars(), vertices)) {
+    for (const HalffaceId h : maker.stars().link(v)) tetrahedra.push_back(TetMesh::tetrahedron(h));
+  }
+  sort_unique(tetrahedra);
+  return maker.make(std::move(tetrahedra));
 }
 
 }  // namespace
 
 bool sweep_near_violations(Draft& draft, const NearOptions& options, const MustStop& must_stop, Executor* executor) {
   for (const NearStep& step : kNearSteps) {
-    std::vector<TetId> bad = violating(draft, options.criterion, executor);
+    const std::vector<TetId> bad = violating(draft, options.criterion, executor);
     if (bad.empty()) return true;
-    const std::vector<VertexId> vertices =
-        step.rings < 0 ? centers(draft, bad, step.only_weights) : corners_of(draft.mesh, bad, step.rings);
-    IdVector<VertexId, Mobility> mobility = draft.mobilities();
-    if (step.only_weights) {
-      for (const VertexId v : vertices) mobility[v] = mobility[v].weighs ? Mobility::weight : Mobility::none;
+    PatchMaker maker(draft);
+    const std::vector<VertexId> vertices = step.rings < 0 ? centers(draft, bad, step.only_weights)
+                                                          : corners_of(draft.mesh, maker.stars(), bad, step.rings);
+    Patch patch = patch_around(maker, draft.mesh, vertices);
+    TetMesh& mesh = patch.draft.mesh;
+    IdVector<VertexId, Mobility> mobility = patch.draft.mobilities();
+    std::vector<VertexId> in_patch;
+    for (const VertexId v : mesh.vertices()) {
+      if (!std::ranges::binary_search(vertices, patch.vertices[v])) continue;
+      in_patch.push_back(v);
+      if (step.only_weights) mobility[v] = mobility[v].weighs ? Mobility::weight : Mobility::none;
     }
-    Sweeper sweeper(draft.mesh, mobility, vertices, executor);
+    Sweeper sweeper(mesh, mobility, in_patch, executor);
     double gamma = kFirstNearGamma;
-    for (int i = 0; i < step.most_sweeps && !bad.empty(); ++i) {
-      if (!sweeper.sweep({gamma, kNearRelaxation, options.most_cosine}, must_stop)) return false;
-      bad = violating(draft, options.criterion, executor);
+    bool goes_on = true;
+    for (int i = 0; i < step.most_sweeps && goes_on; ++i) {
+      goes_on = sweeper.sweep({gamma, kNearRelaxation, options.most_cosine}, must_stop);
+      if (violating(patch.draft, options.criterion, executor).empty()) break;
       gamma = std::max(kLeastNearGamma, kNearFactor * gamma);
     }
+    for (const VertexId v : in_patch) draft.mesh.set_point(patch.vertices[v], mesh.point(v));
+    if (!goes_on) return false;
   }
   return true;
 }

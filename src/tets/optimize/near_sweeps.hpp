@@ -13,7 +13,8 @@ struct NearOptions {
   double most_cosine = 1;  ///< of dihedral angles
 };
 
-/// Makes the sweeps, which keep the connectivity. O(n) for each sweep. Returns false if it was stopped.
+/// Makes the sweeps, which keep the connectivity. They see a patch around the violations alone. Returns false if it was
+/// stopped.
 bool sweep_near_violations(Draft& draft, const NearOptions& options, const MustStop& must_stop, Executor* executor);
 
 }  // namespace temper::tets
