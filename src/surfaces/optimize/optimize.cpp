@@ -182,12 +182,14 @@ Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const Surf
   }
   of_run.criterion = options.criterion;
   SurfaceReport other = run_for(mesh, solver, of_run);
-  if (other.violations_after <= report.violations_after) {
-    if (other.violations_after > 0 || !decides || stopped_early(other.stopped)) return other;
+  const auto is_better = [&] {
+    if (other.violations_after != report.violations_after) return other.violations_after < report.violations_after;
+    if (!decides || stopped_early(other.stopped)) return other.bad_after <= report.bad_after;
     const auto errors = [&](const SurfaceMesh& of) { return options.squared_errors(of, options.scheme); };
     const std::vector<double> before = errors(input);
-    if (largest_ratio(errors(mesh), before) < largest_ratio(errors(good), before)) return other;
-  }
+    return largest_ratio(errors(mesh), before) < largest_ratio(errors(good), before);
+  };
+  if (is_better()) return other;
   mesh = std::move(good);
   report.seconds = other.seconds;
   return report;
