@@ -49,8 +49,15 @@ double Nearness::distance(const SurfaceMesh& mesh) const {
   constexpr double kRounding = 1e-11;  // of the largest allowed distance: less is not told from 0
   double most = kRounding * most_;
   const ClosestPoints now(mesh);
-  for (const Target& t : now.targets()) most = std::min(most_, closest_.bound(t.corners, most, most_).most);
-  for (const Target& t : closest_.targets()) most = std::min(most_, now.bound(t.corners, most, most_).most);
+  const auto add = [&](const ClosestPoints& from, const ClosestPoints& to) {
+    for (std::size_t t = 0; t < from.targets().size(); ++t) {
+      const ClosestPoints::Triangle& corners = from.targets()[t].corners;
+      const bool stays = t < to.targets().size() && to.targets()[t].corners == corners;
+      if (!stays) most = std::min(most_, to.bound(corners, most, most_).most);
+    }
+  };
+  add(now, closest_);
+  add(closest_, now);
   return most;
 }
 
