@@ -77,7 +77,7 @@ class ObjReader {
     const double z = scanner_.more_on_line() ? scanner_.real("the z coordinate of a vertex") : 0;
     plane_.add(document_.file.points.size() - 1, z);
     if (scanner_.more_on_line()) ignore("numbers after z");
-    while (scanner_.more_on_line()) scanner_.word("a color");
+    while (scanner_.more_on_line()) static_cast<void>(scanner_.real("a color"));
   }
   void face() {
     MeshFile& f = document_.file;

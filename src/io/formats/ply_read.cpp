@@ -66,6 +66,10 @@ class PlyScanner {
   PlyContents read() {
     header();
     for (PlyElement& e : contents_.elements) body(e);
+    if (!contents_.binary && !scanner_.at_end()) {
+      scanner_.fail_here(ErrorCode::syntax, "expected the end of the file after all elements of the header, found ",
+                         in_quotes(scanner_.peek()));
+    }
     return std::move(contents_);
   }
 

@@ -120,6 +120,7 @@ TEST_F(OtherFormats, ObjSaysThatItDropsColors) {
   const MeshFile f = read_ok("m.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\n");
   ASSERT_EQ(f.warnings.size(), 1u);
   EXPECT_NE(f.warnings[0].find("statements that are no mesh are dropped: numbers after z, vn"), std::string::npos);
+  EXPECT_EQ(refused("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\rf 1 2 3\n"), "m.obj:3: expected a color, found 'f'");
 }
 
 TEST_F(OtherFormats, QuadrilateralsOfOffAndObjAreCutInTwo) {
@@ -236,6 +237,8 @@ TEST_F(OtherFormats, BadPlyIsNamed) {
             "m.ply: elements 'face' have no properties");
   EXPECT_EQ(refused("m.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000000\nproperty int x\nend_header\n0\n"),
             "m.ply:6: announces 4000000000000 elements 'vertex', but only 2 bytes follow");
+  EXPECT_EQ(refused("m.ply", head + faces + "3 0 1 2\n3 0 2 1\n"),
+            "m.ply:13: expected the end of the file after all elements of the header, found '3'");
 }
 
 // --- ADCIRC ----------------------------------------------------------------------------------------------------
