@@ -1,6 +1,7 @@
 // optimize(): checks the options, marks creases, and compares runs.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "base/text.hpp"
@@ -165,34 +166,51 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
 Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options) {
   if (auto error = expect_options(options)) return *std::move(error);
   if (options.criterion == Criterion::well_centered) return run_for(mesh, solver, options);
-  // A well-centered mesh meets all criteria, and its coefficients are larger than those of a run that ends before.
+  // A well-centered mesh meets all criteria, and its coefficients are larger than those of a run that ends before. If
+  // errors decide, the run for the criterion comes first: a stop leaves its mesh.
   SurfaceOptions of_run = options;
   of_run.started = options.started.value_or(std::chrono::steady_clock::now());
-  of_run.criterion = Criterion::well_centered;
+  const auto run = [&](SurfaceMesh& of, Criterion criterion) {
+    of_run.criterion = criterion;
+    SurfaceReport report = run_for(of, solver, of_run);
+    report.violations_before = violations(report.before, options.criterion);
+    report.violations_after = violations(report.after, options.criterion);
+    return report;
+  };
+  const bool decides = measures_errors(mesh, options);
   const SurfaceMesh input = mesh;
   SurfaceMesh good = mesh;
-  SurfaceReport report = run_for(good, solver, of_run);
-  report.violations_before = violations(report.before, options.criterion);
-  report.violations_after = violations(report.after, options.criterion);
-  const bool decides = measures_errors(mesh, options) && !stopped_early(report.stopped);
-  const bool is_enough = report.violations_after == 0 || stopped_early(report.stopped);
-  if (!decides && is_enough && report.violations_after < report.violations_before) {
-    mesh = std::move(good);
-    return report;
+  std::optional<SurfaceReport> own;
+  if (decides) {
+    own = run(mesh, options.criterion);
+    if (stopped_early(own->stopped)) return *std::move(own);
+    of_run.best_so_far = {};
   }
-  of_run.criterion = options.criterion;
-  SurfaceReport other = run_for(mesh, solver, of_run);
+  SurfaceReport other = run(good, Criterion::well_centered);
+  if (!own) {
+    const bool is_enough = other.violations_after == 0 || stopped_early(other.stopped);
+    if (is_enough && other.violations_after < other.violations_before) {
+      mesh = std::move(good);
+      return other;
+    }
+    own = run(mesh, options.criterion);
+  }
+  const Stopped stopped = stopped_early(other.stopped) ? other.stopped : own->stopped;
   const auto is_better = [&] {
-    if (other.violations_after != report.violations_after) return other.violations_after < report.violations_after;
-    if (!decides || stopped_early(other.stopped)) return other.bad_after <= report.bad_after;
+    if (own->violations_after != other.violations_after) return own->violations_after < other.violations_after;
+    if (!decides || stopped_early(other.stopped)) return own->bad_after <= other.bad_after;
     const auto errors = [&](const SurfaceMesh& of) { return options.squared_errors(of, options.scheme); };
     const std::vector<double> before = errors(input);
     return largest_ratio(errors(mesh), before) < largest_ratio(errors(good), before);
   };
-  if (is_better()) return other;
-  mesh = std::move(good);
-  report.seconds = other.seconds;
-  return report;
+  const double seconds = std::max(own->seconds, other.seconds);
+  if (!is_better()) {
+    mesh = std::move(good);
+    own = std::move(other);
+  }
+  own->seconds = seconds;
+  own->stopped = stopped;
+  return *std::move(own);
 }
 
 }  // namespace temper::surfaces
