@@ -10,21 +10,6 @@
 
 namespace temper::tets {
 
-struct PlainTables {
-  std::size_t edges[6][4];  ///< kEdgeCorners
-  std::size_t faces[4][3];  ///< TetMesh::kFaceCorners
-};
-inline constexpr PlainTables kPlain = [] {
-  PlainTables tables = {};
-  for (std::size_t e = 0; e < 6; ++e) {
-    for (std::size_t k = 0; k < 4; ++k) tables.edges[e][k] = static_cast<std::size_t>(kEdgeCorners[e][k]);
-  }
-  for (std::size_t f = 0; f < 4; ++f) {
-    for (std::size_t k = 0; k < 3; ++k) tables.faces[f][k] = static_cast<std::size_t>(TetMesh::kFaceCorners[f][k]);
-  }
-  return tables;
-}();
-
 /// A positive tetrahedron, with its orthocenters.
 template <class T>
 class TetDuals {
@@ -125,6 +110,22 @@ class TetDuals {
 
  private:
   using V = Vector<T>;
+  struct Tables {
+    std::size_t edges[6][4];  ///< kEdgeCorners
+    std::size_t faces[4][3];  ///< TetMesh::kFaceCorners
+  };
+  static constexpr Tables plain_tables() {
+    Tables tables = {};
+    for (std::size_t e = 0; e < 6; ++e) {
+      for (std::size_t k = 0; k < 4; ++k) tables.edges[e][k] = static_cast<std::size_t>(kEdgeCorners[e][k]);
+    }
+    for (std::size_t f = 0; f < 4; ++f) {
+      for (std::size_t k = 0; k < 3; ++k) tables.faces[f][k] = static_cast<std::size_t>(TetMesh::kFaceCorners[f][k]);
+    }
+    return tables;
+  }
+  static constexpr Tables kPlain = plain_tables();
+
   struct Edge {
     std::size_t i, j, left, right;  // its ends, and the faces of a and b
     V vector, crossing, middle;
