@@ -96,9 +96,9 @@ double sum_of(std::span<const double> values) { return std::accumulate(values.be
 
 /// The geometric mean. Values that are nearly exact, or 0, count as a small part of the sum.
 double geometric_mean_of(std::span<const double> values) {
-  constexpr double kExact = 1e-8;
+  const double least = 1e-8 * sum_of(values);
   double sum = 0;
-  for (const double value : values) sum += std::log(std::max(value, kExact * sum_of(values)));
+  for (const double value : values) sum += std::log(std::max(value, least));
   return std::exp(sum / static_cast<double>(values.size()));
 }
 

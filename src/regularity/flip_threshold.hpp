@@ -1,4 +1,4 @@
-// How far a vertex may move before an edge flips, for a step that will not go farther than some bound.
+// The part of a step after which an edge flips, for steps that end at a bound.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// How large the errors of a scheme are on a surface, in proportion: a descent of this energy lowers them.
+// A descent of this energy lowers the errors of a scheme on a surface.
 #include "surfaces/optimize/accuracy.hpp"
 
 #include <algorithm>

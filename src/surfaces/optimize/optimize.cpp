@@ -166,8 +166,8 @@ SurfaceReport run_for(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions&
 Expected<SurfaceReport> optimize(SurfaceMesh& mesh, LpSolver& solver, const SurfaceOptions& options) {
   if (auto error = expect_options(options)) return *std::move(error);
   if (options.criterion == Criterion::well_centered) return run_for(mesh, solver, options);
-  // A well-centered mesh meets all criteria, and its coefficients are larger than those of a run that ends before. If
-  // errors decide, the run for the criterion comes first: a stop leaves its mesh.
+  // A well-centered mesh meets all criteria, so its run is a rival of the run for the criterion. If errors decide, the
+  // run for the criterion comes first: a stop leaves its mesh.
   SurfaceOptions of_run = options;
   of_run.started = options.started.value_or(std::chrono::steady_clock::now());
   const auto run = [&](SurfaceMesh& of, Criterion criterion) {

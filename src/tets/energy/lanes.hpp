@@ -1,6 +1,7 @@
 // Eight tetrahedra side by side, for kernels of all instruction sets.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "base/pack.hpp"
@@ -24,6 +25,16 @@ struct LanePoints {
 struct alignas(64) TetLanes {
   LanePoints corners[4];
 };
+
+/// The tetrahedra from `first` on, at most to the one before `last`.
+inline TetLanes lanes_of(const TetMesh& mesh, std::size_t first, std::size_t last) {
+  TetLanes lanes;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const auto points = mesh.points(TetId(std::min(first + lane, last - 1)));
+    for (std::size_t k = 0; k < 4; ++k) lanes.corners[k].set(lane, points[k]);
+  }
+  return lanes;
+}
 
 template <class Pack>
 TEMPER_INLINE PointVector<Pack> load(const LanePoints& p) {

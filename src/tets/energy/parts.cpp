@@ -11,19 +11,14 @@ namespace {
 
 const PartsKernels& kernels() { return *TEMPER_IN_USE(kPartsKernels); }
 
-/// Calls work(first, lanes) for the tetrahedra from `first` on, eight at once, on threads.
+/// Calls work(first, n, lanes) for each eight tetrahedra, of which n are left, on threads.
 template <class Work>
 void for_blocks(const TetMesh& mesh, Executor* executor, const Work& work) {
   constexpr std::size_t kTetsPerTask = 256;
   const std::size_t n = mesh.n_tetrahedra(), tasks = (n + kTetsPerTask - 1) / kTetsPerTask;
   or_serial(executor).run(tasks, [&](std::size_t i) {
     for (std::size_t t = i * kTetsPerTask; t < std::min(n, (i + 1) * kTetsPerTask); t += kLanes) {
-      TetLanes lanes;
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const auto points = mesh.points(TetId(std::min(t + lane, n - 1)));
-        for (std::size_t k = 0; k < 4; ++k) lanes.corners[k].set(lane, points[k]);
-      }
-      work(t, std::min(kLanes, n - t), lanes);
+      work(t, std::min(kLanes, n - t), lanes_of(mesh, t, n));
     }
   });
 }

@@ -1,5 +1,5 @@
-// The parts of one tetrahedron and their derivatives (parts.hpp), written once for all packs. Sources of several
-// instruction sets share no inline function but those of packs, so tables here are plain arrays.
+// The parts of one tetrahedron and their derivatives (parts.hpp), written once for all packs. Each instruction set
+// needs tables of its own, so they are plain arrays of the class.
 #pragma once
 
 #include <cstddef>

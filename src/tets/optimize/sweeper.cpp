@@ -167,14 +167,9 @@ namespace {
 /// Calls use(t, energy, is_bad) for each tetrahedron of a block.
 template <class Use>
 void judge(const TetMesh& mesh, double gamma, std::size_t first, std::size_t last, const Use& use) {
-  TetLanes lanes;
   Lane energies;
   for (; first < last; first += kLanes) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const auto points = mesh.points(TetId(std::min(first + i, last - 1)));
-      for (std::size_t k = 0; k < 4; ++k) lanes.corners[k].set(i, points[k]);
-    }
-    const auto [inside, outside] = kernels().tetrahedra(lanes, gamma, energies);
+    const auto [inside, outside] = kernels().tetrahedra(lanes_of(mesh, first, last), gamma, energies);
     for (std::size_t i = 0; i < std::min(kLanes, last - first); ++i) {
       const TetId t(first + i);
       use(t, energies[i], (outside >> i & 1) != 0 || ((inside >> i & 1) == 0 && !is_well_centered(mesh, t)));
