@@ -24,13 +24,18 @@ namespace temper {
 class Executor;
 struct ReportTable;
 
+/// How much quality() measures. All else keeps the values that it has without a mesh.
+enum class QualityDetail {
+  all,
+  brief,      ///< No energies, and no SolverMeasures but the edges and duals over the local size
+  criterion,  ///< No energies, SolverMeasures and transmissibilities: enough for violations()
+};
+
 struct QualityOptions {
   LengthParameter gamma = {1.0, LengthScale::absolute};  ///< Parameter γ of E_BP in the report
   LengthParameter h0 = {0.0, LengthScale::absolute};     ///< Parameter −h° of E_BHs in the report
   std::size_t worst = 5;                                 ///< Number of the worst triangles to list
-  /// Measure no energies, and no SolverMeasures but the edges and duals over the local size. The others keep the values
-  /// that they have without a mesh.
-  bool brief = false;
+  QualityDetail detail = QualityDetail::all;
   Executor* executor = nullptr;
 };
 

@@ -209,13 +209,21 @@ Places measure(Quality& q, const Mesh& mesh, const IdVector<TriangleId, Triangle
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   const Tally sums = tally(mesh, originals, options);
   q = sums.report;
-  static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.brief, options.executor);
   Places places = {sums.worst, sums.least_dual.element};
+  if (options.detail == QualityDetail::criterion) {
+    const Quality none;
+    static_cast<SolverMeasures&>(q) = SolverMeasures{};
+    q.max_transmissibility_over_median = none.max_transmissibility_over_median;
+    q.transmissibility_ratio = none.transmissibility_ratio;
+    return places;
+  }
+  const bool brief = options.detail == QualityDetail::brief;
+  static_cast<SolverMeasures&>(q) = solver_measures(mesh, brief, options.executor);
   if (q.triangles == 0) return places;
   const Transmissibilities transmissibilities = compare_transmissibilities(mesh, options.executor);
   q.max_transmissibility_over_median = transmissibilities.max_over_median;
   q.transmissibility_ratio = transmissibilities.max_over_min;
-  if (!options.brief) q.energy = all_energies(mesh, options);
+  if (!brief) q.energy = all_energies(mesh, options);
   return places;
 }
 

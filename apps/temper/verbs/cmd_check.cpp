@@ -167,7 +167,7 @@ class Checks {
     options_.h0 = s_.h0.value_or(options_.h0);
     options_.worst = s_.worst;
     options_.executor = threads_.get();
-    options_.brief = !s_.details && !s_.json && s_.write.empty() && s_.require.empty();
+    if (!s_.details && !s_.json && s_.write.empty() && s_.require.empty()) options_.detail = QualityDetail::brief;
     files_ = sorted_outputs("check", s_.write, kCheckOutputs);
     if (!s_.write.empty() && s_.inputs.size() > 1) {
       refuse_usage("check", fmt::format("--write: expected one mesh, found {}", s_.inputs.size()));

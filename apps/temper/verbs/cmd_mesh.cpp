@@ -398,6 +398,7 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   const auto [inputs, map, made] = s.sphere ? mesh_globe(s, threads.get()) : mesh_plane(s, threads.get());
   QualityOptions measuring;
   measuring.executor = threads.get();
+  if (s.files.report.empty()) measuring.detail = QualityDetail::criterion;  // the text has no other numbers
   print_warnings(made.warnings);
   const Quality after = quality(made.mesh, measuring);
 

@@ -132,11 +132,12 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
   look_at(tensors, io::corner_weights_of(input.file, input.loaded));
   if (s.measure_errors || !s.files.picture.empty() || !s.files.page.empty()) results.second = *seen;
   const bool shown = !s.files.report.empty() || !s.files.page.empty() || !s.files.picture.empty();
-  measuring.brief = !shown && !s.details && s.requirements.empty();
+  const bool brief = !shown && !s.details && s.requirements.empty();
+  if (brief) measuring.detail = QualityDetail::brief;
   const bool measured = !is_quiet() || shown || !s.requirements.empty();  // else nobody would see it
   // The run looks at the mesh in an order for which no copy is needed. It has no names for the worst triangles.
   Viewer viewer;
-  if (measured && measuring.brief && !s.tensor.given()) {
+  if (measured && brief && !s.tensor.given()) {
     viewer = [&, first = true](const Mesh& now) mutable {
       results.after = quality(now, measuring);
       if (std::exchange(first, false)) results.before = results.after;
@@ -151,7 +152,7 @@ void improve(const OptimizeSettings& s, Input& input, const RunFiles& files, Run
     flush_output();
   });
   const Tracer tracer = tracer_of(s, files, input);
-  results.report = run_library(s, input, mesh, files.threads, tracer, viewer, !measuring.brief);
+  results.report = run_library(s, input, mesh, files.threads, tracer, viewer, !brief);
   tensors.resize(std::min<std::size_t>(tensors.size(), 1));  // all have it if the report has none
   look_at(results.report.triangle_tensors.empty() ? tensors : results.report.triangle_tensors,
           results.report.corner_weights);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/median.hpp"
@@ -170,15 +171,22 @@ TEST(QualityLaws, ScalingLeavesRatiosAndMultipliesEnergies) {
 
 TEST(QualityLaws, BriefLeavesOutMeasuresAndChangesNone) {
   const Mesh mesh = bad_mesh();
-  const Quality all = quality(mesh), brief = quality(mesh, {.brief = true}), none;
-  std::size_t left_out = 0;
-  for (const QualityMeasure& measure : quality_measures()) {
-    if (measure.of(brief) == measure.of(all)) continue;
-    EXPECT_EQ(measure.of(brief), measure.of(none)) << measure.key;
-    ++left_out;
+  const Quality all = quality(mesh), none;
+  std::size_t left_out_before = 0;
+  for (const QualityDetail detail : {QualityDetail::brief, QualityDetail::criterion}) {
+    const Quality less = quality(mesh, {.detail = detail});
+    std::size_t left_out = 0;
+    for (const QualityMeasure& measure : quality_measures()) {
+      if (measure.of(less) == measure.of(all)) continue;
+      EXPECT_EQ(measure.of(less), measure.of(none)) << measure.key;
+      ++left_out;
+    }
+    EXPECT_GT(left_out, std::exchange(left_out_before, left_out));
+    EXPECT_EQ(less.energy, none.energy);
+    for (const Criterion criterion : {Criterion::well_centered, Criterion::distances, Criterion::coefficients})
+      EXPECT_EQ(violations(less, criterion), violations(all, criterion));
   }
-  EXPECT_GT(left_out, 0U);
-  EXPECT_EQ(brief.energy, none.energy);
+  const Quality brief = quality(mesh, {.detail = QualityDetail::brief});
   EXPECT_EQ(brief.min_edge_over_size, all.min_edge_over_size);
   EXPECT_EQ(brief.max_transmissibility_over_median, all.max_transmissibility_over_median);
   EXPECT_EQ(brief.min_h_over_l, all.min_h_over_l);
