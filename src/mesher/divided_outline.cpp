@@ -10,11 +10,24 @@ namespace temper::mesher {
 
 namespace {
 
+constexpr double kStretch = 0.25;  // a piece may be longer than its size by this part, rather than be halved
+
+/// Says whether the sizes at both ends show that the segment is one piece, since sizes fall by at most the grade.
+bool is_surely_one_piece(const SurfacePath& path, const GradedSize& size) {
+  constexpr double kRounding = 0.01;  // of the sums in divisions(), too
+  if (size.has_field()) return false;
+  const double whole = path.length(), grade = size.grade();
+  const double a = size(path.at(0)), b = size(path.at(whole));
+  const double lowest = 0.5 * (a + b - grade * whole);  // where the sizes from both ends meet
+  if (!(lowest > 0)) return false;
+  return std::log(a / lowest) + std::log(b / lowest) < (1 + kStretch - kRounding) * grade;
+}
+
 /// Distances of the division points along a segment of given length: equal parts of the integral of 1/size.
 std::vector<double> divisions(const SurfacePath& path, const GradedSize& size, double most, Deadline& deadline) {
   constexpr double kStep = 0.125;      // of the local size: the integrand changes by less than grade/8 in a step
-  constexpr double kStretch = 0.25;    // a piece may be longer than its size by this part, rather than be halved
   constexpr double kLeastStep = 1e-7;  // of the segment: what is finer takes fewer samples, not all memory
+  if (is_surely_one_piece(path, size)) return {};
   const double whole = path.length();
   std::vector<double> at = {0}, integral = {0};
   double density = 1 / size(path.at(0));

@@ -22,8 +22,8 @@ constexpr double kBytesOfProgram = 60e6;  // libraries, and buffers that do not 
 
 class Counter {
  public:
-  Counter(const Triangulated& outline, const Areas& areas, const GradedSize& size)
-      : surface_(size.surface()), outline_(outline), areas_(areas), size_(size) {}
+  Counter(const Triangulated& outline, const Areas& areas, const GradedSize& size, double per_triangle)
+      : surface_(size.surface()), outline_(outline), areas_(areas), size_(size), per_triangle_(per_triangle) {}
 
   double run(bool has_field, Deadline& deadline) {
     for (const TriangleId t : outline_.mesh.triangles()) {
@@ -93,8 +93,9 @@ class Counter {
     constexpr double kMuchLess = 0.1;  // of a sum: rounding counts in the difference
     std::make_heap(cells_.begin(), cells_.end(), order);
     double before = total_;
-    // More cells than triangles make the estimate no better.
-    const auto are_enough = [&] { return static_cast<double>(cells_.size()) > std::min(most, kLeastCells + total_); };
+    const auto are_enough = [&] {
+      return static_cast<double>(cells_.size()) > std::min(most, kLeastCells + per_triangle_ * total_);
+    };
     constexpr int kAtATime = 16;  // halvings, before the deadline is asked
     for (int i = 1; !cells_.empty() && !are_enough() && doubt_ > enough * total_; ++i) {
       if (i % kAtATime == 0 && deadline.asked_to_stop()) break;
@@ -137,6 +138,7 @@ class Counter {
   const Triangulated& outline_;
   const Areas& areas_;
   const GradedSize& size_;
+  double per_triangle_;
   std::vector<Cell> cells_;
   double total_ = 0, doubt_ = 0;
 };
@@ -148,8 +150,9 @@ double count_in(double area, double size) {
   return area / size / size / kOfSquare;            // the square of a tiny size would be 0
 }
 
-double count_triangles(const Triangulated& outline, const Areas& areas, const GradedSize& size, Deadline& deadline) {
-  return Counter(outline, areas, size).run(size.has_field(), deadline);
+double count_triangles(const Triangulated& outline, const Areas& areas, const GradedSize& size, double per_triangle,
+                       Deadline& deadline) {
+  return Counter(outline, areas, size, per_triangle).run(size.has_field(), deadline);
 }
 
 double count_field(const Surface& surface, const Triangulated& outline, const WantedSize& wanted, Deadline& deadline) {

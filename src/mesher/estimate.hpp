@@ -14,9 +14,10 @@ namespace temper::mesher {
 [[nodiscard]] double count_in(double area, double size);
 
 /// The number of triangles of these sizes inside the outline. `outline`: the triangulation of `points` and edges alone.
-/// It takes a limited number of steps. Then it counts too many triangles, if any.
+/// It takes a limited number of steps, with at most `per_triangle` of them for each. Then it counts too many triangles,
+/// if any. More than 1 make the estimate no better.
 [[nodiscard]] double count_triangles(const Triangulated& outline, const Areas& areas, const GradedSize& size,
-                                     Deadline& deadline);
+                                     double per_triangle, Deadline& deadline);
 
 /// The least number of triangles of a size field inside the outline: it sees each triangle of the field.
 [[nodiscard]] double count_field(const Surface& surface, const Triangulated& outline, const WantedSize& wanted,

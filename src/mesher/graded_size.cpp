@@ -2,6 +2,8 @@
 #include "mesher/graded_size.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace temper::mesher {
 namespace {
@@ -19,19 +21,12 @@ GradedSize::GradedSize(const Surface& surface, std::span<const SizeSource> sourc
   if (!sources_.empty()) build(0, sources_.size());
 }
 
-std::uint32_t GradedSize::build(std::size_t begin, std::size_t end) {
-  const auto index = static_cast<std::uint32_t>(nodes_.size());
-  Node node{box_of(sources_[begin].at, sources_[begin].at), sources_[begin].size, static_cast<std::uint32_t>(begin),
-            static_cast<std::uint32_t>(end)};
-  for (std::size_t i = begin + 1; i < end; ++i) {
-    const SizeSource& s = sources_[i];
-    node.box = united(node.box, {s.at, s.at});
-    node.least = std::min(node.least, s.size);
-  }
-  nodes_.push_back(node);
-  if (end - begin <= kLeaf) return index;
-  const std::size_t middle = begin + (end - begin) / 2;
-  double Vec3::*const side = node.box.longest();
+/// Puts the sources before the middle first, along the longest side of the box of all.
+void GradedSize::sort_by_halves(std::size_t begin, std::size_t middle, std::size_t end) {
+  const auto at = [&](std::size_t i) { return sources_.begin() + static_cast<std::ptrdiff_t>(i); };
+  BoundingBox box = box_of(at(begin)->at, at(begin)->at);
+  for (std::size_t i = begin; i < end; ++i) box = united(box, {at(i)->at, at(i)->at});
+  double Vec3::*const side = box.longest();
   const auto before = [side](const SizeSource& a, const SizeSource& b) {
     if (a.at.*side != b.at.*side) return a.at.*side < b.at.*side;
     for (double Vec3::*const other : {&Vec3::x, &Vec3::y, &Vec3::z}) {
@@ -39,39 +34,68 @@ std::uint32_t GradedSize::build(std::size_t begin, std::size_t end) {
     }
     return a.size < b.size;
   };
-  const auto at = [&](std::size_t i) { return sources_.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(begin), at(middle), at(end), before);
-  build(begin, middle);
-  const std::uint32_t right = build(middle, end);
-  nodes_[index].right = right;
+}
+
+std::uint32_t GradedSize::build(std::size_t begin, std::size_t end) {
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.emplace_back();
+  Node node = {};
+  for (std::size_t k = 0; k <= kChildren; ++k)
+    node.ends[k] = static_cast<std::uint32_t>(begin + k * (end - begin) / kChildren);
+  if (end - begin > kLeaf) {
+    sort_by_halves(begin, node.ends[2], end);
+    sort_by_halves(begin, node.ends[1], node.ends[2]);
+    sort_by_halves(node.ends[2], node.ends[3], end);
+  }
+  for (std::size_t k = 0; k < kChildren; ++k) {
+    node.least[k] = std::numeric_limits<double>::infinity();
+    node.child[k] = 0;
+    for (std::uint32_t i = node.ends[k]; i < node.ends[k + 1]; ++i) {
+      const Vec3 p = sources_[i].at;
+      const std::array<double, 3> at = {p.x, p.y, p.z};
+      const bool is_first = i == node.ends[k];
+      for (std::size_t side = 0; side < 3; ++side) {
+        node.low[side][k] = is_first ? at[side] : std::min(node.low[side][k], at[side]);
+        node.high[side][k] = is_first ? at[side] : std::max(node.high[side][k], at[side]);
+      }
+      node.least[k] = std::min(node.least[k], sources_[i].size);
+    }
+    if (node.ends[k + 1] - node.ends[k] > kLeaf) node.child[k] = build(node.ends[k], node.ends[k + 1]);
+  }
+  nodes_[index] = node;
   return index;
 }
 
-double GradedSize::bound(const Node& node, Vec3 x) const {
-  const auto beyond = [&](double Vec3::*side) {
-    return std::max({node.box.low.*side - x.*side, 0.0, x.*side - node.box.high.*side});
-  };
-  return node.least + grade_ * length(Vec3{beyond(&Vec3::x), beyond(&Vec3::y), beyond(&Vec3::z)});
-}
-
-void GradedSize::lower(std::uint32_t at, Vec3 x, double& best) const {
+double GradedSize::lower(std::uint32_t at, Vec3 x, double best) const {
   const Node& node = nodes_[at];
-  if (node.right == 0) {
-    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+  const std::array<double, 3> place = {x.x, x.y, x.z};
+  Lanes squared = {};
+  for (std::size_t side = 0; side < 3; ++side) {
+    for (std::size_t k = 0; k < kChildren; ++k) {
+      const double beyond = place[side] - std::min(std::max(place[side], node.low[side][k]), node.high[side][k]);
+      squared[k] += beyond * beyond;
+    }
+  }
+  Lanes bound;
+  for (std::size_t k = 0; k < kChildren; ++k) bound[k] = node.least[k] + grade_ * std::sqrt(squared[k]);
+  for (;;) {
+    const auto k = static_cast<std::size_t>(std::min_element(bound.begin(), bound.end()) - bound.begin());
+    if (!(bound[k] < best)) return best;
+    bound[k] = std::numeric_limits<double>::infinity();
+    if (node.child[k] != 0) {
+      best = lower(node.child[k], x, best);
+      continue;
+    }
+    for (std::uint32_t i = node.ends[k]; i < node.ends[k + 1]; ++i) {
       if (sources_[i].size < best) best = std::min(best, sources_[i].size + grade_ * length(x - sources_[i].at));
     }
-    return;
   }
-  const double left = bound(nodes_[at + 1], x), right = bound(nodes_[node.right], x);
-  const bool left_first = left <= right;
-  if (std::min(left, right) < best) lower(left_first ? at + 1 : node.right, x, best);
-  if (std::max(left, right) < best) lower(left_first ? node.right : at + 1, x, best);
 }
 
 double GradedSize::operator()(Vec3 x) const {
-  double best = wanted_.at(x, surface_);
-  if (!nodes_.empty() && bound(nodes_[0], x) < best) lower(0, x, best);
-  return best;
+  const double best = wanted_.at(x, surface_);
+  return nodes_.empty() ? best : lower(0, x, best);
 }
 
 Vec3 GradedSize::start() const {

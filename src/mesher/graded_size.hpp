@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,21 +37,26 @@ class GradedSize {
   GradedSize(const Surface& surface, std::span<const SizeSource> sources, const WantedSize& wanted, double grade);
   /// O(log n) if sources are spread evenly.
   [[nodiscard]] double operator()(Vec3 x) const;
+  [[nodiscard]] double most() const { return wanted_.most; }
+  [[nodiscard]] double grade() const { return grade_; }
   [[nodiscard]] bool has_field() const { return wanted_.field != nullptr; }
   [[nodiscard]] const Surface& surface() const { return surface_; }
   /// A place of the sphere: with a field the first one of its least size.
   [[nodiscard]] Vec3 start() const;
 
  private:
+  static constexpr std::size_t kChildren = 4;
+  using Lanes = std::array<double, kChildren>;
+  /// Children side by side, so that their bounds are computed at once.
   struct Node {
-    BoundingBox box;   // of the sources below
-    double least = 0;  // size among them
-    std::uint32_t begin = 0, end = 0;
-    std::uint32_t right = 0;  // the left child follows its parent; 0 for a leaf
+    std::array<Lanes, 3> low, high;                 // boxes of the sources below
+    Lanes least;                                    // size among them; infinity without any
+    std::array<std::uint32_t, kChildren + 1> ends;  // of the sources of each child
+    std::array<std::uint32_t, kChildren> child;     // 0 for a leaf
   };
   std::uint32_t build(std::size_t begin, std::size_t end);
-  [[nodiscard]] double bound(const Node& node, Vec3 x) const;
-  void lower(std::uint32_t at, Vec3 x, double& best) const;
+  void sort_by_halves(std::size_t begin, std::size_t middle, std::size_t end);
+  [[nodiscard]] double lower(std::uint32_t at, Vec3 x, double best) const;
 
   std::vector<SizeSource> sources_;
   std::vector<Node> nodes_;

@@ -121,24 +121,33 @@ class Mesher {
 
   /// The number of triangles by the sizes so far, if the largest size were `most`.
   double count(double most) {
-    const WantedSize wanted = {most, problem_.wanted.field};
+    if (most == problem_.wanted.most) return count(most, domain_.areas, sizing_.size(problem_));
     Areas areas = domain_.areas;
     for (Area& a : areas.areas) {
       if (a.size == problem_.wanted.most) a.size = most;
     }
-    const GradedSize size(problem_.surface, sizing_.sources, wanted, options_.grade);
-    const double triangles = std::max(count_triangles(undivided_, areas, size, deadline_),
+    return count(most, areas, {problem_.surface, sizing_.sources, {most, problem_.wanted.field}, options_.grade});
+  }
+  double count(double most, const Areas& areas, const GradedSize& size) {
+    const double triangles = std::max(count_triangles(undivided_, areas, size, 1, deadline_),
                                       2 * count_pieces(problem_.surface, domain_.arrangement, most));
-    if (wanted.field == nullptr) return triangles;
-    return std::max(triangles, count_field(problem_.surface, undivided_, wanted, deadline_));
+    if (!size.has_field()) return triangles;
+    return std::max(triangles, count_field(problem_.surface, undivided_, {most, problem_.wanted.field}, deadline_));
   }
 
   std::optional<InputError> count_expected() {
     deadline_.begin("estimating the number of triangles");
     expected_ = count(problem_.wanted.most);
-    counted_sources_ = sizing_.sources.size();
     if (deadline_.stopped()) return stopped_while("measured");
     return {};
+  }
+
+  /// Says whether sources since the last count may matter: a count in few steps finds too many triangles, if any.
+  bool are_many_more() {
+    constexpr double kMany = 1.5, kStepsPerTriangle = 1.0 / 16;
+    const double at_most =
+        count_triangles(undivided_, domain_.areas, sizing_.size(problem_), kStepsPerTriangle, deadline_);
+    return deadline_.stopped() || at_most > std::min(kMany * expected_, most_triangles(options_));
   }
 
   /// Refuses meshes that would take all memory.
@@ -246,7 +255,7 @@ class Mesher {
   Expected<OutlineMesh> attempt() {
     Expected<Laid> laid = lay();
     if (!laid) return laid.error();
-    if (sizing_.sources.size() > counted_sources_) {  // narrow places and bad triangles have smaller sizes
+    if (are_many_more()) {  // narrow places and bad triangles have smaller sizes
       if (auto error = count_expected()) return *error;
       if (auto error = check_expected()) return *error;
       tell_estimate();
@@ -332,9 +341,8 @@ class Mesher {
   Deadline deadline_;
   Domain domain_;
   Sizing sizing_;
-  Triangulated undivided_;           // the outline alone, on which triangles are counted
-  double expected_ = 0, told_ = 0;   // number of triangles
-  std::size_t counted_sources_ = 0;  // that it is for
+  Triangulated undivided_;          // the outline alone, on which triangles are counted
+  double expected_ = 0, told_ = 0;  // number of triangles
 };
 
 std::vector<Vec3> places_of(const Outline& outline) {

@@ -147,19 +147,17 @@ class PointGrid {
     const int level = std::ilogb(size);
     lowest_ = points_.empty() ? level : std::min(lowest_, level);
     highest_ = points_.empty() ? level : std::max(highest_, level);
-    points_.push_back({p, level, kNone});
+    points_.push_back({p, scale_of(level), level, kNone});
     insert(static_cast<std::uint32_t>(points_.size() - 1));
   }
 
-  /// Looks at all points whose size is between a quarter and four times the radius. In neighboring levels it also looks
-  /// at larger or smaller ones.
-  [[nodiscard]] bool any_within(Vec3 p, double radius) const {
-    const int level = std::ilogb(radius);
+  /// Looks at all points whose size is between `least` and `most`, and at those in the same levels.
+  [[nodiscard]] bool any_within(Vec3 p, double radius, double least, double most) const {
     const Vec3 reach = {radius, radius, flat_ ? 0 : radius};
-    // Most points are refused because of a point of about their own size. So its level comes first.
-    for (const int l : {level, level + 1, level + 2, level - 1}) {
-      if (l < lowest_ || l > highest_) continue;
-      const Cell low = cell(p - reach, l), high = cell(p + reach, l);
+    const int last = std::min(highest_, std::ilogb(most));
+    for (int l = std::max(lowest_, std::ilogb(least)); l <= last; ++l) {
+      const double scale = scale_of(l);
+      const Cell low = cell(p - reach, l, scale), high = cell(p + reach, l, scale);
       for (std::int64_t x = low.x; x <= high.x; ++x) {
         for (std::int64_t y = low.y; y <= high.y; ++y) {
           for (std::int64_t z = low.z; z <= high.z; ++z) {
@@ -177,6 +175,7 @@ class PointGrid {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   struct Entry {
     Vec3 at;
+    double scale;
     int level;
     std::uint32_t next;
   };
@@ -186,10 +185,12 @@ class PointGrid {
     friend bool operator==(const Cell&, const Cell&) = default;
   };
 
-  [[nodiscard]] Cell cell(Vec3 p, int level) const {
+  /// One over the width of the cells of a level.
+  [[nodiscard]] double scale_of(int level) const {
     // Narrow cells are many to look at: in space a query would see 729 of the least level, nearly all off the sphere.
-    const int wide = flat_ ? level + 1 : level + 2;
-    const double scale = std::ldexp(1.0, -wide);
+    return std::ldexp(1.0, -(flat_ ? level + 1 : level + 2));
+  }
+  static Cell cell(Vec3 p, int level, double scale) {
     const auto along = [scale](double x) {
       const double scaled = scale * x;
       const auto towards_zero = static_cast<std::int64_t>(scaled);
@@ -197,6 +198,7 @@ class PointGrid {
     };
     return {along(p.x), along(p.y), along(p.z), level};
   }
+  static Cell cell_of(const Entry& entry) { return cell(entry.at, entry.level, entry.scale); }
   [[nodiscard]] std::size_t slot(const Cell& c) const {
     std::uint64_t hash = static_cast<std::uint64_t>(c.x) * 0x9e3779b97f4a7c15u;
     hash = (hash ^ (hash >> 29) ^ static_cast<std::uint64_t>(c.y)) * 0xbf58476d1ce4e5b9u;
@@ -207,14 +209,14 @@ class PointGrid {
   /// The slot of the cell: it has its first point, or is the empty slot for it.
   [[nodiscard]] std::size_t find(const Cell& c) const {
     std::size_t s = slot(c);
-    while (slots_[s] != kNone && !(cell(points_[slots_[s]].at, points_[slots_[s]].level) == c)) {
+    while (slots_[s] != kNone && !(cell_of(points_[slots_[s]]) == c)) {
       s = (s + 1) & (slots_.size() - 1);
     }
     return s;
   }
   [[nodiscard]] std::uint32_t first(const Cell& c) const { return slots_.empty() ? kNone : slots_[find(c)]; }
   void insert(std::uint32_t i) {
-    const std::size_t s = find(cell(points_[i].at, points_[i].level));
+    const std::size_t s = find(cell_of(points_[i]));
     points_[i].next = slots_[s];
     slots_[s] = i;
   }
@@ -233,6 +235,7 @@ class PointGrid {
 // are accepted much nearer make the short edges that a denser packing needs; points that are refused leave holes.
 constexpr double kApart = 0.72;
 constexpr double kClear = 0.5;
+constexpr double kRounding = 1e-9;  // of sizes and distances, where sizes that were not computed must decide
 constexpr std::array<double, 3> kHeights = {0.866, 0.7, 0.55};
 
 /// A point of the front: it proposes its six neighbors.
@@ -240,6 +243,7 @@ struct Front {
   Vec3 at;
   Vec3 direction;  // of the first proposal, of length 1
   std::int32_t area;
+  double size;
 };
 
 class Placement {
@@ -250,6 +254,7 @@ class Placement {
         areas_(areas),
         size_(size),
         deadline_(deadline),
+        is_even_(is_even(areas, size)),
         grid_(surface_.space().dimension() == 2) {
     std::vector<BoundingBox> boxes;
     boxes.reserve(divided.pieces.size());
@@ -273,11 +278,15 @@ class Placement {
     }
     for (std::size_t i = 0; i < front_.size() && front_.size() < most && !deadline_.asked_to_stop(); ++i) {
       const Front from = front_[i];  // a copy: front_ grows
-      const double here = size_at(from.at, from.area);
+      const double here = from.size, grade = size_.grade();
       for (const auto& [c, s] : turns) {
         const Vec3 d = c * from.direction + s * surface_.to_the_left(from.direction, from.at);
-        const double there = size_at(surface_.below(from.at + here * d), from.area);
-        take(surface_.below(from.at + 0.5 * (here + there) * d), from.at, from.area, kNoPiece);
+        const Vec3 ahead = surface_.below(from.at + here * d);
+        if (is_surely_near(ahead, here, (1 + 0.5 * grade) * here, 0.5 * grade * here)) continue;
+        const double there = size_at(ahead, from.area);
+        const Vec3 p = surface_.below(from.at + 0.5 * (here + there) * d);
+        if (is_surely_near(p, there, length(p - ahead), 0)) continue;
+        take(p, from.at, from.area, kNoPiece);
       }
     }
     std::vector<Vec3> points;
@@ -289,6 +298,26 @@ class Placement {
  private:
   [[nodiscard]] double size_at(Vec3 p, std::int32_t area) const {
     return std::min(size_(p), areas_.areas[static_cast<std::size_t>(area)].size);
+  }
+
+  /// Says whether sizes, those of the grid too, differ by at most the grade times the distance.
+  static bool is_even(const Areas& areas, const GradedSize& size) {
+    constexpr double kMostGrade = 0.8;  // up to it is_near() finds all points within its radius
+    return size.grade() <= kMostGrade && !size.has_field() &&
+           std::all_of(areas.areas.begin(), areas.areas.end(), [&](const Area& a) { return a.size >= size.most(); });
+  }
+
+  [[nodiscard]] bool is_near(Vec3 p, double size) const {
+    const double radius = kApart * size;
+    if (!is_even_) return grid_.any_within(p, radius, 0.5 * radius, 4 * radius);
+    const double differs = (1 + kRounding) * size_.grade() * radius;
+    return grid_.any_within(p, radius, size - differs, size + differs);
+  }
+  /// Says that the place within `moved` of p is near a point, without its size: within `distance` of it the size is
+  /// `size`. If it returns false, nothing is known.
+  [[nodiscard]] bool is_surely_near(Vec3 p, double size, double distance, double moved) const {
+    const double radius = (1 - kRounding) * kApart * (size - size_.grade() * distance) - moved;
+    return is_even_ && radius > 0 && grid_.any_within(p, radius, size, size);
   }
 
   /// The apex of the triangle on a piece, on each side that is inside.
@@ -303,7 +332,8 @@ class Placement {
       const Vec3 inwards = side == 0 ? normal : -1.0 * normal;
       const double size = size_at(middle, area);
       for (const double height : kHeights) {
-        if (!take(surface_.below(middle + (height * size) * inwards), middle, area, i)) continue;
+        const Vec3 apex = surface_.below(middle + (height * size) * inwards);
+        if (is_surely_near(apex, size, height * size, 0) || !take(apex, middle, area, i)) continue;
         // The first proposal lies towards an end of the piece, so the next row makes equilateral triangles.
         front_.back().direction = -1.0 * surface_.direction(front_.back().at, a);
         break;
@@ -313,21 +343,21 @@ class Placement {
 
   /// Returns the number of points of the front that exist already.
   std::size_t start_without_pieces() {
-    for (const Vec3 p : divided_.points) front_.push_back({p, surface_.some_direction(p), 0});
+    for (const Vec3 p : divided_.points) front_.push_back({p, surface_.some_direction(p), 0, size_at(p, 0)});
     if (front_.empty()) {
       const Vec3 start = size_.start();
-      grid_.add(start, size_at(start, 0));
-      front_.push_back({start, surface_.some_direction(start), 0});
+      const double size = size_at(start, 0);
+      grid_.add(start, size);
+      front_.push_back({start, surface_.some_direction(start), 0, size});
     }
     return divided_.points.size();
   }
 
   bool take(Vec3 p, Vec3 from, std::int32_t area, std::size_t own_piece) {
     const double size = size_at(p, area);
-    if (grid_.any_within(p, kApart * size) || is_in_circle(p) || !is_clear(p, from, kClear * size, own_piece))
-      return false;
+    if (is_near(p, size) || is_in_circle(p) || !is_clear(p, from, kClear * size, own_piece)) return false;
     grid_.add(p, size);
-    front_.push_back({p, -1.0 * surface_.direction(p, from), area});
+    front_.push_back({p, -1.0 * surface_.direction(p, from), area, size});
     return true;
   }
 
@@ -354,6 +384,7 @@ class Placement {
   const Areas& areas_;
   const GradedSize& size_;
   Deadline& deadline_;
+  bool is_even_;
   BoundingBoxTree tree_, circles_;
   PointGrid grid_;
   std::vector<Front> front_;

@@ -72,7 +72,7 @@ Sizing first_sizing(const Problem& problem, const Domain& domain) {
 
 void refine_around(const Problem& problem, const Mesh& mesh, const std::vector<TriangleId>& bad, Sizing& sizing) {
   constexpr double kSmaller = 0.7;
-  const GradedSize now = sizing.size(problem);
+  const GradedSize now = sizing.size(problem);  // a copy, without the new sources
   for (const TriangleId t : bad) {
     for (const VertexId v : mesh.corners(t)) {
       const Vec3 p = problem.surface.place(mesh.point(v));

@@ -1,6 +1,7 @@
 // The sizes of a run: sources that grow from attempt to attempt, and what the division of the outline needs besides.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,9 +16,18 @@ struct Sizing {
   CornerRadii corners;
   std::optional<Gap> narrowest;  ///< the shortest edge at first
 
-  [[nodiscard]] GradedSize size(const Problem& problem) const {
-    return {problem.surface, sources, problem.wanted, problem.options.grade};
+  /// The size by these sources. It is built again after new ones: sources only grow.
+  [[nodiscard]] const GradedSize& size(const Problem& problem) {
+    if (!graded_ || n_graded_ != sources.size()) {
+      graded_ = std::make_shared<const GradedSize>(problem.surface, sources, problem.wanted, problem.options.grade);
+      n_graded_ = sources.size();
+    }
+    return *graded_;
   }
+
+ private:
+  std::shared_ptr<const GradedSize> graded_;
+  std::size_t n_graded_ = 0;  // sources in it
 };
 
 /// The number of triangles along lines and areas with sizes of their own.
