@@ -136,7 +136,9 @@ int run_triangles(io::MeshFile& file, const std::string& output, CountingExecuto
   OptimizeHooks hooks;
   hooks.executor = &executor;
   hooks.exclusive = true;
-  hooks.viewer = [&](const Mesh& mesh) { static_cast<void>(quality(mesh, {.brief = true, .executor = &executor})); };
+  hooks.viewer = [&](const Mesh& mesh) {
+    static_cast<void>(quality(mesh, {.detail = QualityDetail::brief, .executor = &executor}));
+  };
   hooks.measures_sizes = false;
   const auto report = optimize(loaded->mesh, {}, hooks);
   insist(report);
