@@ -33,6 +33,10 @@ constexpr double kRelaxation = 1.7;
 // after kLastSweeps at the latest.
 constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
+// Without repairs it also ends if so many sweeps at the last γ cure at most this part of the bad tetrahedra: the rest
+// needs another connectivity. Most sweeps would go there otherwise.
+constexpr std::size_t kSweepsToCure = 10;
+constexpr double kLeastCured = 0.01;
 // Moves that do not bring errors below the input's must lower them by this part.
 constexpr double kGainOfMoves = 0.2;
 // Steps of weights alone, which go nearly as far as they can.
@@ -156,12 +160,20 @@ class Driver : RepairRun {
         if (!sweep(sweeper, gamma)) return false;
       }
     }
-    for (int i = 0; i < kLastSweeps; ++i) {
+    std::vector<std::size_t> bad = {best_bad_};
+    for (int i = 0; i < kLastSweeps && !cures_little(bad); ++i) {
       if (!sweep(sweeper, kLastGamma)) return false;
+      bad.push_back(best_bad_);
       const auto last = report.history.end() - 1;
       if (i > 0 && (last - 1)->energy - last->energy <= kTolerance * last->energy) break;
     }
     return true;
+  }
+  /// Says whether the last sweeps of a run without repairs cured little; `bad`: what was left after each.
+  [[nodiscard]] bool cures_little(const std::vector<std::size_t>& bad) const {
+    if (options_.tets.repair_trials > 0 || bad.size() <= kSweepsToCure || bad.back() == 0) return false;
+    const auto before = static_cast<double>(bad[bad.size() - 1 - kSweepsToCure]);
+    return static_cast<double>(bad.back()) >= (1 - kLeastCured) * before;
   }
   /// Returns false if no further sweep may follow. A sweep that was stopped is kept if it makes the mesh no worse.
   bool sweep(Sweeper& sweeper, double gamma) {

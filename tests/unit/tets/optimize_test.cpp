@@ -274,6 +274,32 @@ TEST(TetOptimize, HeightsThatNoPlaceMakesPositiveFlattenNoTetrahedron) {
   for (const TetId t : mesh.tetrahedra()) EXPECT_GE(shape(t), std::min(0.1, before[t.index]) * (1 - 1e-9));
 }
 
+TEST(TetOptimize, SweepsThatCureLittleEndARunWithoutRepairs) {
+  const TetMesh input = test::mesh_of(test::shaken(test::cubes(6, test::kSixTets), 0.1, 0));
+  const auto history_of = [&input](const OptimizeOptions& options) {
+    TetMesh mesh = input;
+    return optimize(mesh, options)->history;
+  };
+  OptimizeOptions options = only_good();
+  options.flips = Flips::none;
+  const auto all = history_of(options);  // repairs could follow, if edges could change
+  options.tets.repair_trials = 0;
+  const auto quick = history_of(options);
+  ASSERT_LT(quick.size(), all.size());
+  std::vector<std::size_t> least = {input.n_tetrahedra()};  // bad tetrahedra so far
+  const auto last = quick.back().length_parameter;
+  std::size_t first = 0;  // sweep at the last γ
+  for (const SweepRecord& sweep : quick) {
+    least.push_back(std::min(least.back(), sweep.bad));
+    first += sweep.length_parameter == last ? 0 : 1;
+  }
+  ASSERT_GT(least.back(), 0U);
+  const auto cures = [&least](std::size_t i) { return double(least[i]) < 0.99 * double(least[i - 10]); };
+  for (std::size_t i = first + 10; i + 1 < least.size(); ++i) EXPECT_TRUE(cures(i)) << i;
+  EXPECT_FALSE(cures(least.size() - 1));
+  for (std::size_t i = 0; i < quick.size(); ++i) EXPECT_EQ(quick[i].energy, all[i].energy);
+}
+
 TEST(TetOptimize, KeepsInterfacesAndSinglePoints) {
   const test::TetArrays arrays = input_arrays();
   const TetMesh plain = test::mesh_of(arrays);
