@@ -68,7 +68,7 @@ class Driver : RepairRun {
     many_are_bad_ = are_many(best_bad_, input_.mesh.n_tetrahedra());
     const std::size_t at_start = best_bad_;
     if (best_bad_ == 0 || made_good_nearby() || takes_least_weights() || split_surface()) return;
-    if (!many_are_bad_ && changes_connectivity()) repair_in_patches();
+    if (!many_are_bad_ && changes_connectivity()) repair_in_patches(criterion_);
     const std::size_t left = best_bad_;
     if (left == 0 || stopped_early()) return;
     draft_ = input_;
@@ -94,14 +94,16 @@ class Driver : RepairRun {
   void sweep_and_repair() {
     const bool goes_on = anneal(best_bad_ == 0 ? kLastGamma : kFirstGamma);
     if (criterion_ == Criterion::distances && (best_bad_ == 0 || made_good_by_weights())) return;
-    if (goes_on && changes_connectivity()) repair();
+    // Patches for distances were in vain: where all orthocenters get inside, distances are positive, too.
+    if (goes_on && changes_connectivity())
+      repair(criterion_ == Criterion::distances ? Criterion::well_centered : criterion_);
     if (criterion_ != Criterion::well_centered && !stopped_early()) (void)takes_least_weights();
   }
   bool made_good_by_weights() {
     const Draft start = draft_;
     if (takes_least_weights() || split_surface()) return true;
     if (!changes_connectivity()) return false;
-    repair_in_patches();
+    repair_in_patches(criterion_);
     if (best_bad_ == 0) {
       (void)takes_least_weights();
       return true;

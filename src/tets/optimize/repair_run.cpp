@@ -34,14 +34,14 @@ bool RepairRun::changes_connectivity() const {
          options_.tets.repair_trials > 0;
 }
 
-void RepairRun::repair() {
-  const SearchOptions of_all = {.criterion = criterion_, .most_cosine = guarded_cosine()};
+void RepairRun::repair(Criterion sought) {
+  const SearchOptions of_all = {.criterion = sought, .most_cosine = guarded_cosine()};
   for (std::size_t in_vain = 0; best_bad_ > 0 && in_vain < kRoundsInVain;) {
     const std::size_t before = best_bad_;
     if (!may_sweep() || !change_places(of_all)) break;
     in_vain = best_bad_ < before ? 0 : in_vain + 1;
   }
-  repair_in_patches();
+  repair_in_patches(sought);
   if (best_bad_ == 0 && criterion_ == Criterion::well_centered && lowers_errors() && !changes_least()) widen_margins();
   if (best_bad_ == 0 && options_.tets.small_margin > 0) {
     draft_ = *best_.kept;
@@ -78,17 +78,17 @@ void RepairRun::widen_margins() {
   keep_if_best(0, true);
 }
 
-void RepairRun::repair_in_patches() {
+void RepairRun::repair_in_patches(Criterion sought) {
   draft_ = *best_.kept;
   if (are_many(best_bad_, draft_.mesh.n_tetrahedra())) work_ = std::min(work_, kWorkOfMany);
   const int trials = options_.tets.repair_trials;
   const bool each = options_.tets.patches == Patches::each;
   for (const double most_cosine : {most_cosine_, guarded_cosine()}) {  // smaller angles only if there is no other way
     for (const int most : {std::min(kFewTrials, trials), trials}) {
-      if (best_bad_ > 0) repair_patches({criterion_, most, 0, false, each, most_cosine});
+      if (best_bad_ > 0) repair_patches({sought, most, 0, false, each, most_cosine});
     }
     if (best_bad_ > 0 && options_.boundary == BoundaryVertices::split)
-      repair_patches({criterion_, trials, 0, true, each, most_cosine});
+      repair_patches({sought, trials, 0, true, each, most_cosine});
   }
 }
 

@@ -15,10 +15,11 @@ class RepairRun : protected Run {
 
   [[nodiscard]] bool changes_connectivity() const;
   /// Changes the connectivity where sweeps alone are not enough: first at all bad tetrahedra at once, then, from the
-  /// best mesh, in patches. Each round counts as one sweep.
-  void repair();
-  /// The second half of it: patches around places that violate the criterion.
-  void repair_in_patches();
+  /// best mesh, in patches. Each round counts as one sweep. `sought`: what changes aim at, the criterion of the run or
+  /// a stricter one. They end when the criterion of the run is kept.
+  void repair(Criterion sought);
+  /// The second half of it: patches around places that violate what is sought.
+  void repair_in_patches(Criterion sought);
 
  private:
   /// Makes a round of changes at all places. False: there was nothing to do, or it must stop.

@@ -131,6 +131,41 @@ TEST(TetSurface, GetsVerticesWhereNoWeightsMakeItsEdgesRegularOnRequestAlone) {
   }
 }
 
+// Below a thin layer: all orthocenters inside at one place need vertices and flips that distances alone do not ask for.
+TEST(TetDistances, ArePositiveIfPlacesThatPatchesForThemLeaveAreMadeWellCentered) {
+  const test::TetArrays arrays = {
+      {{20, 13, 9},
+       {7, 0, 9},
+       {7, 12, 9},
+       {14, 0, 9},
+       {18, 19, 9},
+       {18, 6, 9},
+       {11, 6, 9},
+       {11, 19, 9},
+       {13, 13, 9},
+       {20, 13, 13},
+       {7, 12, 13},
+       {14, 0, 13},
+       {18, 19, 13},
+       {18, 6, 13},
+       {11, 6, 13},
+       {11, 19, 13},
+       {13, 13, 13}},
+      {},
+      {{13, 9, 0, 8},   {6, 14, 5, 8},  {11, 1, 14, 3},  {6, 14, 1, 3},   {3, 14, 11, 5}, {16, 13, 14, 8},
+       {13, 5, 14, 8},  {5, 13, 0, 8},  {9, 13, 16, 8},  {6, 14, 3, 5},   {8, 4, 9, 0},   {8, 15, 12, 7},
+       {8, 7, 12, 4},   {12, 8, 4, 9},  {5, 14, 11, 13}, {8, 14, 10, 6},  {8, 6, 10, 2},  {7, 2, 8, 15},
+       {15, 8, 12, 16}, {12, 8, 9, 16}, {8, 10, 15, 2},  {14, 8, 10, 16}, {10, 8, 15, 16}}};
+  const TetMesh input = test::mesh_of(arrays);
+  OptimizeOptions options = {.scheme = Scheme::cell};
+  options.tets.accuracy_steps = 0;
+  TetMesh mesh = input;
+  ASSERT_TRUE(optimize(mesh, options, with_weights()));
+  EXPECT_FALSE(meets(input, Criterion::distances, nullptr));
+  EXPECT_TRUE(meets(mesh, Criterion::distances, nullptr));
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+}
+
 TEST(TetDescent, LeavesNoCoefficientNegativeOnTheSurfaceOrInOneRegion) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     TetMesh input = test::mesh_of(test::shaken(test::cubes(3, test::kSixTets), 0.15, 0, seed));
