@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -32,7 +33,8 @@ InputError nothing_enclosed(const Problem& problem, const Arrangement& arrangeme
                 problem.text(arrangement.places[i]) +
                 " only one segment ends. Next: end it on another segment, or close the line"};
   }
-  return {ErrorCode::empty_input, "", "the outline encloses nothing but holes; expected an area to mesh"};
+  return {ErrorCode::empty_input, problem.outline.holes.empty() ? "" : problem.names.hole_where(0),
+          "the outline encloses nothing but holes; expected an area to mesh"};
 }
 
 /// The place of the first segment of a part, for messages.
@@ -249,12 +251,26 @@ class AreaFinder {
       area_[c].region = region.region;
       if (region.size) area_[c].size = std::min(area_[c].size, *region.size);
     }
-    for (std::size_t c = 0; c < components_.size(); ++c) {
-      for (const RegionSize& r : problem_.options.region_sizes) {
-        if (r.region == area_[c].region) area_[c].size = std::min(area_[c].size, r.size);
+    for (const RegionSize& r : problem_.options.region_sizes) {
+      std::set<std::int32_t> others;
+      bool is_used = false;
+      for (std::size_t c = 0; c < components_.size(); ++c) {
+        if (inside_[c] == 0) continue;
+        others.insert(area_[c].region);
+        if (r.region != area_[c].region) continue;
+        is_used = true;
+        area_[c].size = std::min(area_[c].size, r.size);
       }
+      if (!is_used) return unknown_region(r.region, others);
     }
     return {};
+  }
+
+  static InputError unknown_region(std::int32_t region, const std::set<std::int32_t>& known) {
+    std::string list;
+    for (const std::int32_t k : known) list += (list.empty() ? "" : ", ") + std::to_string(k);
+    return invalid("a size is given for region " + std::to_string(region) +
+                   "; expected one of the regions of the outline: " + list);
   }
 
   /// The component of a place, or none outside the hull. A place on an edge belongs to one of its sides. The search
@@ -301,6 +317,9 @@ class AreaFinder {
 
 Expected<Areas> find_areas(const Problem& problem, const Arrangement& arrangement, Deadline& deadline) {
   const Expected<Components> components = find_components(problem.surface, arrangement, deadline);
+  if (!components && components.error().code == ErrorCode::zero_area)
+    return InputError{ErrorCode::zero_area, problem.names.point_where(0),
+                      components.error().message + "; expected an outline that encloses an area"};
   if (!components) return components.error();
   return AreaFinder(problem, arrangement, *components).run();
 }

@@ -358,6 +358,9 @@ TEST(MesherErrors, BadOptionsAreNamed) {
   options.attempts = 0;
   expect_error(square(), options, ErrorCode::invalid_option, "attempt");
   options = sized(1);
+  options.region_sizes = {{3, 0.01}};
+  expect_error(two_regions(), options, ErrorCode::invalid_option,
+               "a size is given for region 3; expected one of the regions of the outline: 10, 20");
   options.region_sizes = {{3, -1}};
   expect_error(square(), options, ErrorCode::invalid_option, "region 3");
   expect_error(square(), sized(1e-9), ErrorCode::invalid_option, "triangles");
@@ -369,6 +372,8 @@ TEST(MesherErrors, BadOptionsAreNamed) {
 }
 
 TEST(MesherErrors, BadOutlinesAreNamedByTheirElements) {
+  expect_error(loop({{0, 0}, {1, 0}, {2, 0}}), sized(1), ErrorCode::zero_area,
+               "all points lie on one line; expected an outline that encloses an area");
   const double nan = std::nan("");
   const auto changed = [](auto change) {
     Outline o = square();

@@ -75,13 +75,26 @@ TEST(MesherSizes, DecideHowManyPiecesAnEdgeHas) {
   EXPECT_GT(divided_ones, 200);
 }
 
+/// A square with points whose sizes differ much.
+Outline wells_of_many_sizes() {
+  Outline outline = square();
+  Rng rng(3);
+  for (std::int32_t i = 4; i < 60; ++i) {
+    outline.points.push_back({0.05 + 0.9 * rng.uniform(), 0.05 + 0.9 * rng.uniform()});
+    outline.sizes.push_back({{i, i}, 0.03 * rng.uniform() * rng.uniform() + 0.001});
+  }
+  return outline;
+}
+
 // An area with a size of its own asks for all sizes, since they jump at its border. This one is smaller by rounding.
 TEST(MesherSizes, PointsThatAreRefusedWithoutTheirSizesHadBeenRefused) {
-  for (const NamedOutline& named : outlines()) {
+  std::vector<NamedOutline> all = outlines();
+  all.push_back({"wells", wells_of_many_sizes()});
+  for (const NamedOutline& named : all) {
     if (!named.outline.regions.empty()) continue;
-    for (const double grade : {0.1, kGrade, 0.6}) {
+    for (const double grade : {0.1, kGrade, 0.45, 0.6}) {
       SCOPED_TRACE(named.name + ", grade " + std::to_string(grade));
-      MesherOptions options = of_size(0.021 * extent(named.outline));
+      MesherOptions options = of_size((named.name == "wells" ? 0.2 : 0.021) * extent(named.outline));
       options.grade = grade;
       options.optimize.reset();
       const Expected<OutlineMesh> quick = mesh_outline(named.outline, options);
