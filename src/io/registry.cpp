@@ -241,8 +241,8 @@ void check_sizes(const std::string& path, const MeshFile& f) {
     insist(cells.tags.size() == cells.size() || (may_be_untagged && cells.tags.empty()),
            text("another number of ", names.tags, " than of ", names.several));
     check_data(cells.data, cells.size(), names.data);
-    for (const auto& cell : cells)
-      insist(std::ranges::all_of(corners_of(cell), in_range), text(names.one, " that is none"));
+    const auto has_vertices = [&](const auto& cell) { return std::ranges::all_of(corners_of(cell), in_range); };
+    insist(std::ranges::all_of(cells, has_vertices), text(names.one, " that is none"));
   };
   const bool tets = f.dimension() == 3;
   check_cells(f.tetrahedra, {"a tetrahedron with a vertex", "tetrahedra", "regions", "cell data"}, true);
