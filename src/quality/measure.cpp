@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/predicates_inline.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 
@@ -32,7 +33,7 @@ void measure_heights(TriangleMeasure& m, const std::array<WeightedPoint, 3>& p) 
   const std::array<double, 3> scaled = scaled_heights(p[0], p[1], p[2]);  // h ℓ of the edge across corner 0, 1, 2
   for (int k = 0; k < 3; ++k) {
     const WeightedPoint &a = p[k], &b = p[corner_after(k)], &c = p[corner_across(k)];
-    m.h_sign[k] = signed_height_sign(a, b, c);
+    m.h_sign[k] = inlined::height_numerator_sign(a, b, c);  // the orientation is positive
     const double ratio = scaled[corner_across(k)] / squared_length(b.position() - a.position());
     m.h_over_l[k] = ratio == ratio ? ratio : -kUnbounded;  // 0/0 of a triangle that underflows
   }
@@ -72,11 +73,11 @@ double TriangleMeasure::margin() const {
 TriangleMeasure measure_triangle(const Space& space, const std::array<WeightedPoint, 3>& p) {
   if (!space.is_plane()) return measure_on_sphere({as_vector(p[0]), as_vector(p[1]), as_vector(p[2])});
   TriangleMeasure m;
-  m.orientation = orient2d(p[0].position(), p[1].position(), p[2].position());
+  m.orientation = inlined::orient2d(p[0].position(), p[1].position(), p[2].position());
   measure_heights(m, p);
   for (int k = 0; k < 3; ++k) {
     const WeightedPoint &a = p[k], &b = p[corner_after(k)], &c = p[corner_across(k)];
-    m.crossed[k] = dual_crossing_sign(a, b) == Sign::positive && dual_crossing_sign(b, a) == Sign::positive;
+    m.crossed[k] = inlined::crosses_edge(a, b);
     m.d_over_l[k] = lesser_crossing(a, b);
     m.angle_deg[k] = std::abs(corner_angle(a.position(), b.position(), c.position())) * (180 / std::numbers::pi);
   }
