@@ -71,13 +71,30 @@ class Counter {
     return cell;
   }
 
+  /// Says whether the corners show that the size of a place is between two sizes: sizes change by at most the grade.
+  [[nodiscard]] bool is_surely_between(const Cell& cell, Vec3 place, double least, double largest) const {
+    constexpr double kRounding = 1 + 1e-9;
+    if (size_.has_field()) return false;
+    double low = 0, high = largest;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double change = kRounding * size_.grade() * length(place - cell.corners[k]);
+      low = std::max(low, cell.sizes[k] - change);
+      high = std::min(high, cell.sizes[k] + change);
+    }
+    return low >= kRounding * least && kRounding * high <= largest;
+  }
+
   /// Between the least and the largest size s and l the integral of 1/size² is 1/(s l) per area if the size grows from
   /// a side, and less if it grows from a corner.
   void add(Cell cell) {
     const auto [a, b, c] = cell.corners;
-    const double middle = size_at(surface_.below((1.0 / 3) * (a + b + c)), cell.area);
-    const double least = std::min({cell.sizes[0], cell.sizes[1], cell.sizes[2], middle}),
-                 largest = std::max({cell.sizes[0], cell.sizes[1], cell.sizes[2], middle});
+    const Vec3 middle = surface_.below((1.0 / 3) * (a + b + c));
+    auto [least, largest] = std::minmax({cell.sizes[0], cell.sizes[1], cell.sizes[2]});
+    if (!is_surely_between(cell, middle, least, largest)) {
+      const double size = size_at(middle, cell.area);
+      least = std::min(least, size);
+      largest = std::max(largest, size);
+    }
     constexpr double kMuch = 1.5;
     cell.triangles = count_in(extent(cell), std::sqrt(least) * std::sqrt(largest));
     cell.doubt = largest > kMuch * least ? cell.triangles * std::min(1.0, std::log(largest / least)) : 0;

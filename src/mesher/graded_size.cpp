@@ -2,8 +2,9 @@
 #include "mesher/graded_size.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "base/pack.hpp"
 
 namespace temper::mesher {
 namespace {
@@ -78,7 +79,9 @@ double GradedSize::lower(std::uint32_t at, Vec3 x, double best) const {
     }
   }
   Lanes bound;
-  for (std::size_t k = 0; k < kChildren; ++k) bound[k] = node.least[k] + grade_ * std::sqrt(squared[k]);
+  using baseline::Register;  // compilers make no vectors of std::sqrt, which sets errno
+  for (std::size_t k = 0; k < kChildren; k += Register::kSize)
+    (Register::load(&node.least[k]) + grade_ * square_root(Register::load(&squared[k]))).store(&bound[k]);
   for (;;) {
     const auto k = static_cast<std::size_t>(std::min_element(bound.begin(), bound.end()) - bound.begin());
     if (!(bound[k] < best)) return best;
