@@ -231,16 +231,22 @@ class MeshBuilder {
 
   /// Halfedges by their lesser vertex, matched within each small bucket.
   std::optional<InputError> link_twins() {
-    const EdgeBuckets buckets(mesh_, mesh_.vertices());
-    const auto wrong = first_index_by(mesh_.n_vertices(), executor_, [&] {
-      return [&, sides = Sides()](std::size_t v) mutable {
-        buckets.collect(VertexId(v), sides);
+    std::optional<InputError> wrong;
+    for (std::size_t i = 0; i < EdgeBuckets::kSlices && !wrong; ++i) wrong = link_twins(EdgeBuckets::slice(mesh_, i));
+    return wrong;
+  }
+  std::optional<InputError> link_twins(IdRange<VertexId> lesser) {
+    const EdgeBuckets buckets(mesh_, lesser);
+    const std::size_t first = (*lesser.begin()).index;
+    const auto wrong = first_index_by(lesser.size(), executor_, [&] {
+      return [&, sides = Sides()](std::size_t i) mutable {
+        buckets.collect(VertexId(first + i), sides);
         return !match(sides);
       };
     });
     if (!wrong) return std::nullopt;
     Sides sides;
-    buckets.collect(VertexId(*wrong), sides);
+    buckets.collect(VertexId(first + *wrong), sides);
     return wrong_edge(mesh_, input_, sides);
   }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/hilbert.hpp"
 #include "mesh/blocks.hpp"
+#include "mesh/twins.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -122,136 +122,61 @@ IdVector<IdType, IdType> inverse(const IdVector<IdType, IdType>& order, Executor
   return result;
 }
 
-/// A halfedge by the new number of its triangle; none stays none.
-HalfedgeId renumbered(HalfedgeId h, const IdVector<TriangleId, TriangleId>& new_triangle) {
-  return h.valid() ? Mesh::halfedge(new_triangle[Mesh::triangle(h)], static_cast<int>(h.index % 3)) : h;
-}
-
-/// The order along the curve, and the new number of every vertex, a by-product of the search.
-struct Found {
-  MeshOrder order;
-  IdVector<VertexId, VertexId> new_vertex;
-};
-Found find_order(const Mesh& mesh, Executor* executor) {
-  Found found;
-  found.order.vertices = vertices_by_hilbert(mesh, executor);
-  found.new_vertex = inverse(found.order.vertices, executor);
-  found.order.triangles = triangles_by_vertex(mesh, found.new_vertex, executor);
-  return found;
-}
-
 }  // namespace
 
 /// Has access to the arrays of meshes.
 class MeshPermuter {
  public:
-  template <class M>
-  static Mesh ordered(M& mesh, Found& found, Executor* executor);
-  static void restore(Mesh& mesh, const MeshOrder& order, Executor* executor);
+  static void permute(Mesh& mesh, const IdVector<VertexId, VertexId>& new_vertex,
+                      const IdVector<TriangleId, TriangleId>& new_triangle, Executor* executor);
 };
 
-/// Copies one array after the other, and drops each renumbering before it makes the next one: on the largest meshes the
-/// memory in use at once counts. If M is not const, it uses the mesh up.
-template <class M>
-Mesh MeshPermuter::ordered(M& mesh, Found& found, Executor* executor) {
-  Mesh result;
-  result.space_ = mesh.space();
-  const MeshOrder& order = found.order;
-  const std::size_t n = mesh.n_triangles();
-  const auto release = []([[maybe_unused]] auto& array) {
-    if constexpr (!std::is_const_v<M>) array = {};
+/// Moves one array after the other, and finds the twins again at the end: on the largest meshes the memory in use at
+/// once counts.
+void MeshPermuter::permute(Mesh& mesh, const IdVector<VertexId, VertexId>& new_vertex,
+                           const IdVector<TriangleId, TriangleId>& new_triangle, Executor* executor) {
+  const auto renumbered = [&](HalfedgeId h) {
+    return Mesh::halfedge(new_triangle[Mesh::triangle(h)], static_cast<int>(h.index % 3));
   };
-  result.vertices_.resize(mesh.n_vertices());
-  for_each_index(mesh.n_vertices(), executor,
-                 [&](std::size_t i) { result.vertices_[VertexId(i)] = mesh.vertices_[order.vertices[VertexId(i)]]; });
-  release(mesh.vertices_);
-  result.corners_.resize(3 * n);
-  for_each_index(n, executor, [&](std::size_t i) {
-    const auto corners = mesh.corners(order.triangles[TriangleId(i)]);
-    for (std::size_t k = 0; k < 3; ++k) result.corners_[HalfedgeId(3 * i + k)] = found.new_vertex[corners[k]];
-  });
-  found.new_vertex = {};
-  release(mesh.corners_);
-  const auto new_triangle = inverse(order.triangles, executor);
-  result.twins_.resize(3 * n);
-  for_each_index(n, executor, [&](std::size_t i) {
-    for (int k = 0; k < 3; ++k) {
-      const HalfedgeId h = Mesh::halfedge(order.triangles[TriangleId(i)], k);
-      result.twins_[Mesh::halfedge(TriangleId(i), k)] = renumbered(mesh.twin(h), new_triangle);
-    }
-  });
-  release(mesh.twins_);
-  if (!mesh.constrained_.all_zero()) {
-    for (const HalfedgeId h : result.halfedges()) {
-      const HalfedgeId from = Mesh::halfedge(order.triangles[Mesh::triangle(h)], static_cast<int>(h.index % 3));
-      result.constrained_.set(h, mesh.constrained_[from], 3 * n);
-    }
-  }
-  if (!mesh.regions_.all_zero()) {
-    for (const TriangleId t : result.triangles()) result.set_region(t, mesh.regions_[order.triangles[t]]);
-  }
-  result.repair_outgoing();
-  return result;
-}
-
-/// The halfedge that stands for a vertex depends on the numbering (Mesh::repair_outgoing): the boundary halfedge, or at
-/// an inner vertex the halfedge of the greatest number. As in ordered(), one array after the other.
-void MeshPermuter::restore(Mesh& mesh, const MeshOrder& order, Executor* executor) {
-  const std::size_t n = mesh.n_triangles();
-  const auto former = [&](HalfedgeId h) { return renumbered(h, order.triangles); };
-  const auto former_outgoing = [&](VertexId v) {
-    HalfedgeId last = former(mesh.outgoing(v));
-    if (!last.valid() || mesh.is_boundary(v)) return last;
-    for (const HalfedgeId h : mesh.star(v)) last = std::max(last, former(h));
-    return last;
-  };
+  mesh.twins_ = {};
   IdVector<VertexId, Mesh::VertexRecord> vertices(mesh.n_vertices());
-  for_each_index(vertices.size(), executor, [&](std::size_t i) {
-    Mesh::VertexRecord& record = vertices[order.vertices[VertexId(i)]];
-    record = mesh.vertices_[VertexId(i)];
-    record.outgoing = former_outgoing(VertexId(i)).index;
-  });
+  for_each_index(vertices.size(), executor,
+                 [&](std::size_t i) { vertices[new_vertex[VertexId(i)]] = mesh.vertices_[VertexId(i)]; });
   mesh.vertices_ = std::move(vertices);
   IdVector<HalfedgeId, VertexId> corners(mesh.n_halfedges());
-  for_each_index(n, executor, [&](std::size_t t) {
-    for (int k = 0; k < 3; ++k) {
-      const HalfedgeId h = Mesh::halfedge(TriangleId(t), k);
-      corners[former(h)] = order.vertices[mesh.corners_[h]];
-    }
-  });
+  for_each_index(corners.size(), executor,
+                 [&](std::size_t i) { corners[renumbered(HalfedgeId(i))] = new_vertex[mesh.corners_[HalfedgeId(i)]]; });
   mesh.corners_ = std::move(corners);
-  IdVector<HalfedgeId, HalfedgeId> twins(mesh.n_halfedges());
-  for_each_index(n, executor, [&](std::size_t t) {
-    for (int k = 0; k < 3; ++k) {
-      const HalfedgeId h = Mesh::halfedge(TriangleId(t), k);
-      twins[former(h)] = former(mesh.twins_[h]);
-    }
-  });
-  mesh.twins_ = std::move(twins);
+  find_twins(mesh, executor);
   if (const auto constrained = std::exchange(mesh.constrained_, {}); !constrained.all_zero()) {
-    for (const HalfedgeId h : mesh.halfedges()) mesh.constrained_.set(former(h), constrained[h], mesh.n_halfedges());
+    for (const HalfedgeId h : mesh.halfedges())
+      mesh.constrained_.set(renumbered(h), constrained[h], mesh.n_halfedges());
   }
   if (const auto regions = std::exchange(mesh.regions_, {}); !regions.all_zero()) {
-    for (const TriangleId t : mesh.triangles()) mesh.set_region(order.triangles[t], regions[t]);
+    for (const TriangleId t : mesh.triangles()) mesh.set_region(new_triangle[t], regions[t]);
   }
+  mesh.repair_outgoing();
 }
 
 OrderedMesh hilbert_ordered(const Mesh& mesh, Executor* executor) {
-  Found found = find_order(mesh, executor);
-  Mesh ordered = MeshPermuter::ordered(mesh, found, executor);
-  return {std::move(ordered), std::move(found.order)};
+  Mesh copy = mesh;
+  MeshOrder order = hilbert_order_in_place(copy, executor);
+  return {std::move(copy), std::move(order)};
 }
 
 MeshOrder hilbert_order_in_place(Mesh& mesh, Executor* executor) {
-  Found found = find_order(mesh, executor);
-  mesh = MeshPermuter::ordered(mesh, found, executor);
-  return std::move(found.order);
+  MeshOrder order;
+  order.vertices = vertices_by_hilbert(mesh, executor);
+  const auto new_vertex = inverse(order.vertices, executor);
+  order.triangles = triangles_by_vertex(mesh, new_vertex, executor);
+  MeshPermuter::permute(mesh, new_vertex, inverse(order.triangles, executor), executor);
+  return order;
 }
 
 MeshOrder hilbert_order(Mesh& mesh) { return hilbert_order_in_place(mesh, nullptr); }
 
 void restore_order(Mesh& mesh, const MeshOrder& order, Executor* executor) {
-  MeshPermuter::restore(mesh, order, executor);
+  MeshPermuter::permute(mesh, order.vertices, order.triangles, executor);
 }
 
 }  // namespace temper

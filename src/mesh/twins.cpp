@@ -32,11 +32,9 @@ void EdgeBuckets::collect(VertexId lesser, std::vector<Side>& sides) const {
 }
 
 void find_twins(Mesh& mesh, Executor* executor) {
-  constexpr std::size_t kSlices = 8;  // of the lesser vertices: each walks over all halfedges, and sorts a part of them
   MeshEditor(mesh).unlink_all();
-  const std::size_t n = mesh.n_vertices();
-  or_serial(executor).run(kSlices, [&](std::size_t i) {
-    const IdRange<VertexId> slice(VertexId(n * i / kSlices), VertexId(n * (i + 1) / kSlices));
+  or_serial(executor).run(EdgeBuckets::kSlices, [&](std::size_t i) {
+    const IdRange<VertexId> slice = EdgeBuckets::slice(mesh, i);
     const EdgeBuckets buckets(mesh, slice);
     std::vector<EdgeBuckets::Side> sides;
     for (const VertexId v : slice) {

@@ -15,6 +15,13 @@ class Executor;
 /// range.
 class EdgeBuckets {
  public:
+  /// Number of slices of the lesser vertices. Each slice walks over all halfedges, and sorts a part of them.
+  static constexpr std::size_t kSlices = 8;
+  [[nodiscard]] static IdRange<VertexId> slice(const Mesh& mesh, std::size_t i) {
+    const std::size_t n = mesh.n_vertices();
+    return {VertexId(n * i / kSlices), VertexId(n * (i + 1) / kSlices)};
+  }
+
   /// A halfedge by its greater vertex.
   struct Side {
     VertexId greater;
