@@ -41,7 +41,7 @@ double improve(Candidate& best, const Settings& settings, Run& run, AccuracySize
   Improving phase(best.work, settings, run, sizes.lend(best.work, settings.executor()));
   Driver driver(best.work, phase.settings(), phase.state(), run);
   best.sweep = driver.run(phase, best.sweep);
-  sizes.take_back(phase.take_sizes(), best.work, settings.executor());
+  sizes.take_back(phase.take_sizes());
   return driver.least_measure();
 }
 

@@ -47,9 +47,7 @@ class AccuracyPhase final : public SizedPhase {
   [[nodiscard]] double total() const override { return energy_unit_ * now_.energy; }
   SweepRecord measure() override;
   Verdict judge(bool changed) override;
-  [[nodiscard]] Keeps keeps() const override {
-    return settings_.accuracy.keeps_lengths() ? Keeps::last : Keeps::best_points;
-  }
+  [[nodiscard]] Keeps keeps() const override { return Keeps::last; }
 
  private:
   double energy_unit_ = 1;

@@ -1,6 +1,7 @@
 #include "optimize/accuracy/accuracy_sizes.hpp"
 
 #include <utility>
+#include <vector>
 
 #include "mesh/blocks.hpp"
 #include "size/averaged_sizes.hpp"
@@ -21,6 +22,20 @@ VertexSizes sizes_of_field(const Mesh& mesh, const SizeField& field, Executor* e
   return sizes;
 }
 
+/// Gives each vertex the size of its number. Without a second array: the largest meshes have no room for it.
+void renumber_in_place(VertexSizes& sizes, const IdVector<VertexId, VertexId>& numbers) {
+  std::vector<bool> done(sizes.size());
+  for (std::size_t first = 0; first < sizes.size(); ++first) {
+    const double size_of_first = sizes[VertexId(first)];
+    for (VertexId v(first); !done[v.index];) {  // once around its cycle
+      done[v.index] = true;
+      const VertexId number = numbers[v];
+      sizes[v] = number == VertexId(first) ? size_of_first : sizes[number];
+      v = number;
+    }
+  }
+}
+
 }  // namespace
 
 AccuracySizes::AccuracySizes(const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers,
@@ -36,6 +51,7 @@ AccuracySizes::AccuracySizes(const Mesh& mesh, const IdVector<VertexId, VertexId
 }
 
 VertexSizes AccuracySizes::of(const WorkingCopy& work, Executor* executor) const {
+  if (!working_.empty()) return working_;
   VertexSizes sizes(work.mesh.n_vertices());
   for_each_index(sizes.size(), executor, [&](std::size_t i) {
     const VertexId v(i), number = work.order->vertices[v];
@@ -46,27 +62,26 @@ VertexSizes AccuracySizes::of(const WorkingCopy& work, Executor* executor) const
 }
 
 VertexSizes AccuracySizes::lend(const WorkingCopy& work, Executor* executor) {
-  VertexSizes lent = of(work, executor);
-  if (!work.has_gaps && !work.has_inserted()) input_ = {};
+  if (!working_.empty()) return std::exchange(working_, {});
+  if (work.has_gaps || work.has_inserted()) return of(work, executor);
+  VertexSizes lent = std::exchange(input_, {});
+  renumber_in_place(lent, work.order->vertices);
+  for (double& size : lent) size /= work.units.scale;
   return lent;
 }
 
-void AccuracySizes::take_back(VertexSizes lent, const WorkingCopy& work, Executor* executor) {
-  if (!input_.empty()) return;
-  input_.resize(lent.size());
-  for_each_index(lent.size(), executor, [&](std::size_t i) {
-    input_[work.order->vertices[VertexId(i)]] = lent[VertexId(i)] * work.units.scale;
-  });
+void AccuracySizes::take_back(VertexSizes lent) {
+  if (input_.empty()) working_ = std::move(lent);
 }
 
-VertexSizes AccuracySizes::in_user_units(const WorkingCopy& work, Executor* executor) const {
-  VertexSizes sizes = of(work, executor);
+VertexSizes AccuracySizes::in_user_units(const WorkingCopy& work, Executor* executor) && {
+  VertexSizes sizes = lend(work, executor);
   for (double& size : sizes) size *= work.units.scale;
   return sizes;
 }
 
-VertexSizes AccuracySizes::in_user_terms(const WorkingCopy& work, Executor* executor) const {
-  const VertexSizes here = in_user_units(work, executor);
+VertexSizes AccuracySizes::in_user_terms(const WorkingCopy& work, Executor* executor) && {
+  const VertexSizes here = std::move(*this).in_user_units(work, executor);
   std::vector<double> by_number(work.n_vertices_named, 0.0);  // 0: removed
   for (const VertexId v : work.mesh.vertices()) by_number[work.order->vertices[v].index] = here[v];
   VertexSizes sizes;

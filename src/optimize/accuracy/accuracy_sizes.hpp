@@ -25,17 +25,19 @@ class AccuracySizes {
   /// Returns the sizes of a working copy of the input, in working units.
   [[nodiscard]] VertexSizes of(const WorkingCopy& work, Executor* executor) const;
   /// Lends the sizes of a working copy. If the copy has exactly the vertices of the input, this object has no sizes
-  /// until take_back(). For the largest meshes, two copies would take too much memory.
+  /// until take_back(), and then the sizes of such copies alone. For the largest meshes, two arrays would take too much
+  /// memory.
   [[nodiscard]] VertexSizes lend(const WorkingCopy& work, Executor* executor);
   /// `lent`: the sizes that lend() gave for this copy, whose vertices have not changed.
-  void take_back(VertexSizes lent, const WorkingCopy& work, Executor* executor);
-  /// Returns the sizes of a working copy in the user's units.
-  [[nodiscard]] VertexSizes in_user_units(const WorkingCopy& work, Executor* executor) const;
-  /// Returns the sizes of work.in_user_terms() in the user's units.
-  [[nodiscard]] VertexSizes in_user_terms(const WorkingCopy& work, Executor* executor) const;
+  void take_back(VertexSizes lent);
+  /// Ends with the sizes of a working copy in the user's units.
+  [[nodiscard]] VertexSizes in_user_units(const WorkingCopy& work, Executor* executor) &&;
+  /// Ends with the sizes of work.in_user_terms() in the user's units.
+  [[nodiscard]] VertexSizes in_user_terms(const WorkingCopy& work, Executor* executor) &&;
 
  private:
-  VertexSizes input_;  // by the user's numbers; empty while lent
+  VertexSizes input_;    // by the user's numbers; empty after lend()
+  VertexSizes working_;  // in place of them, of working copies
 };
 
 /// Raises the floors of a domain to the present values of the mesh. Returns true if the barrier changes.

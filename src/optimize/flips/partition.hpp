@@ -15,7 +15,7 @@
 
 namespace temper {
 
-using PartNumber = std::uint16_t;
+using PartNumber = std::uint8_t;
 
 /// The vertices first … last − 1, by default all of any mesh; or all v with part_of[v] = number.
 struct Part {

@@ -63,8 +63,10 @@ Result result_of(InputMesh& input, Candidate candidate, const Settings& settings
   Result result;
   const bool for_accuracy = sizes.has_value(), scattered = input.is_scattered();
   VertexSizes own;
-  if (for_accuracy) own = scattered ? sizes->in_user_units(work, executor) : sizes->in_user_terms(work, executor);
-  sizes.reset();
+  if (for_accuracy) {
+    AccuracySizes last = *std::exchange(sizes, std::nullopt);
+    own = scattered ? std::move(last).in_user_units(work, executor) : std::move(last).in_user_terms(work, executor);
+  }
   if (work.has_gaps || work.has_inserted()) result.vertices = work.user_vertices();
   const bool on_sphere = !work.units.space.is_plane();  // elsewhere nothing is rounded
   work.leave_frame();

@@ -416,6 +416,7 @@ void Driver::keep(const Phase& phase, double energy, int sweep) {
     best_points_.resize(mesh_.n_vertices());  // in place: for the largest meshes memory has no room for a copy
     for (const VertexId v : mesh_.vertices()) best_points_[v] = mesh_.point(v);
   } else {
+    best_.kept.reset();  // before the copy: for the largest meshes memory has no room for two
     best_.kept = Candidate{work_, sweep};
   }
   best_.measure = energy;

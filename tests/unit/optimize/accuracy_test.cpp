@@ -412,7 +412,7 @@ TEST(Accuracy, SizesAreSmoothedAndGoWithTheirVertices) {
   EXPECT_LT(smooth, rough);
   EXPECT_GT(smooth, 1);
   WorkingCopy work(mesh, SweepOrder::hilbert);
-  const VertexSizes here = sizes.of(work, nullptr), back = sizes.in_user_terms(work, nullptr);
+  const VertexSizes here = sizes.of(work, nullptr), back = AccuracySizes(sizes).in_user_terms(work, nullptr);
   for (const VertexId v : mesh.vertices()) {
     EXPECT_EQ(here[v] * work.units.scale, sizes.of_input()[work.order->vertices[v]]);
     EXPECT_EQ(back[v], sizes.of_input()[v]);
@@ -444,8 +444,11 @@ TEST(Accuracy, SizesThatWereLentAreWhatTheyWere) {
   VertexSizes lent = sizes.lend(work, nullptr);
   EXPECT_EQ(lent, own);
   EXPECT_TRUE(sizes.of_input().empty());
-  sizes.take_back(std::move(lent), work, nullptr);
-  EXPECT_EQ(sizes.of_input(), before);
+  sizes.take_back(std::move(lent));
+  EXPECT_EQ(sizes.of(work, nullptr), own);
+  EXPECT_EQ(sizes.lend(work, nullptr), own) << "again";
+  sizes.take_back(own);
+  EXPECT_EQ(std::move(sizes).in_user_terms(work, nullptr), before);
 }
 
 TEST(Accuracy, FloorsThatAllTrianglesHaveTakeNoRoomAndAreTheSame) {
