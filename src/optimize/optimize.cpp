@@ -123,9 +123,11 @@ Expected<Candidate> attempt(InputMesh& input, const Settings& settings, SweepSta
   return best;
 }
 
-/// Says whether the mesh is a grid: in a grid at least a tenth of the vertices are at ties.
-bool is_grid(const Mesh& mesh, const Settings& settings) {
+/// Says whether the mesh is a grid: in a grid at least a tenth of the vertices are at ties, without the weights that an
+/// earlier run has given them.
+bool is_grid(Mesh mesh, const Settings& settings) {
   constexpr double kTiedPart = 0.1;
+  for (const VertexId v : mesh.vertices()) mesh.set_weight(v, 0);
   const std::size_t ties = heavier_ends_of_ties(mesh, settings.options).size();
   return static_cast<double>(ties) >= kTiedPart * static_cast<double>(mesh.n_vertices());
 }
