@@ -4,7 +4,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 
 #include "exit.hpp"
 #include "files/input.hpp"
@@ -20,14 +19,16 @@ Budget budget_of(std::uint64_t file_bytes) {
   return {static_cast<unsigned>(3 + file_bytes / kMegabyte), 768 * kMegabyte + 256 * file_bytes};
 }
 
-/// The size of a file of HDF5; nothing for others and for pipes.
-std::optional<std::uint64_t> size_of_hdf5(const std::string& path) {
+/// The size of a file; 0 for pipes.
+std::uint64_t size_of(const std::string& path) {
   std::error_code none;
-  if (!std::filesystem::is_regular_file(path_of(path), none)) return std::nullopt;
+  return std::filesystem::is_regular_file(path_of(path), none) ? std::filesystem::file_size(path_of(path), none) : 0;
+}
+
+bool is_hdf5(const std::string& path) {
   char head[8] = {};
   std::ifstream(path_of(path), std::ios::binary).read(head, sizeof head);
-  if (std::memcmp(head, "\x89HDF\r\n\x1a\n", sizeof head) != 0) return std::nullopt;
-  return std::filesystem::file_size(path_of(path), none);
+  return std::memcmp(head, "\x89HDF\r\n\x1a\n", sizeof head) == 0;
 }
 
 /// Nothing, or the code of the error, its place, a zero, and its message.
@@ -68,7 +69,9 @@ Expected<void> read_in_child(const std::string& path, const Budget& budget, cons
 }  // namespace
 
 io::MeshFile read_tried(const std::string& path, const io::ReadOptions& options) {
-  if (const auto size = size_of_hdf5(path)) or_fail(read_in_child(path, budget_of(*size), options));
+  const std::uint64_t size = size_of(path);
+  prepare_for_file(size);
+  if (size > 0 && is_hdf5(path)) or_fail(read_in_child(path, budget_of(size), options));
   return or_fail(io::read(path, options));
 }
 

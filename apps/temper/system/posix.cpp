@@ -53,6 +53,21 @@ void prepare_process() {
   keep_closed_streams_closed();
 }
 
+void prepare_for_file([[maybe_unused]] std::uint64_t bytes) {
+#ifdef __GLIBC__
+  constexpr std::uint64_t kLarge = 32 << 20;
+  if (bytes <= kLarge) return;
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  mallopt(M_TRIM_THRESHOLD, 4 << 20);
+#endif
+}
+
+void return_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 std::vector<std::string> program_words(int argc, char** argv) { return {argv + (argc > 0 ? 1 : 0), argv + argc}; }
 
 namespace {

@@ -14,6 +14,11 @@ namespace temper::app {
 
 /// Called once, before all others: errors of writing come back as errors, and the standard streams take bytes.
 void prepare_process();
+/// Called before a mesh file of this size is read. With a large one, more of the arrays that are freed go back to the
+/// system, since the memory in use counts.
+void prepare_for_file(std::uint64_t bytes);
+/// Gives memory that is free back to the system, after a long run.
+void return_freed_memory();
 /// The words of the command line behind the program's name, in UTF-8.
 [[nodiscard]] std::vector<std::string> program_words(int argc, char** argv);
 

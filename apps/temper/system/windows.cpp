@@ -39,6 +39,9 @@ void prepare_process() {
   SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX);  // no window waits for an answer
 }
 
+void prepare_for_file(std::uint64_t /*bytes*/) {}
+void return_freed_memory() {}
+
 std::vector<std::string> program_words(int /*argc*/, char** /*argv*/) {
   std::vector<std::string> words;
   int n = 0;

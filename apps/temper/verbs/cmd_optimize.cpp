@@ -17,6 +17,7 @@
 #include "options/requirement.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
+#include "system/system.hpp"
 #include "threads.hpp"
 #include "verbs/optimize_run.hpp"
 #include "verbs/optimize_settings.hpp"
@@ -56,6 +57,7 @@ template <class Subject>
 void write_all(const Command& command, const OptimizeSettings& s, InputOf<Subject>& input, const RunFiles& files,
                RunResults<Subject>& results, Outputs& outputs) {
   const std::size_t known = input.file.warnings.size();
+  return_freed_memory();
   results.data = io::update(input.file, input.loaded, *results.improved, parts_of(results.report),
                             with_threads(s.data, files.threads));
   add_corner_weights(results.report, input.file);

@@ -261,8 +261,9 @@ TEST_F(FileTest, VtuAppendedDataThatAreCutOrPointNowhereAreNamed) {
     return f ? std::string("was read") : plain(f.error().what());
   };
   EXPECT_EQ(message(whole), "was read");
-  EXPECT_EQ(message(whole.substr(0, data + 100)), "cut.vtu: array 'Points': announces 144 bytes, but only 92 follow");
-  EXPECT_EQ(message(whole.substr(0, data + 5)), "cut.vtu: array 'Points': the data end within their header");
+  EXPECT_EQ(message(whole.substr(0, data + 100)),
+            "cut.vtu: array 'connectivity': starts at byte 152 of the appended data, which have only 100");
+  EXPECT_EQ(message(whole.substr(0, data + 157)), "cut.vtu: array 'connectivity': the data end within their header");
   EXPECT_EQ(message(whole.substr(0, data + 200)),
             "cut.vtu: array 'connectivity': announces 80 bytes, but only 40 follow");
   EXPECT_EQ(message(whole.substr(0, data - 1)), "cut.vtu: the appended data are missing");

@@ -54,8 +54,8 @@ class VtuReader {
     n_points_ = count_attribute(piece, "NumberOfPoints");
     n_cells_ = count_attribute(piece, "NumberOfCells");
     document_.names->points = RunLength(0, n_points_);
+    read_cells(piece);  // first, since their numbers take the most memory
     read_points(piece);
-    read_cells(piece);
     read_point_data(piece);
     take_physical_names(document_);
     take_period(document_);
