@@ -8,7 +8,6 @@
 
 #include "base/hilbert.hpp"
 #include "mesh/blocks.hpp"
-#include "mesh/twins.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -131,14 +130,12 @@ class MeshPermuter {
                       const IdVector<TriangleId, TriangleId>& new_triangle, Executor* executor);
 };
 
-/// Moves one array after the other, and finds the twins again at the end: on the largest meshes the memory in use at
-/// once counts.
+/// Moves one array after the other: on the largest meshes the memory in use at once counts.
 void MeshPermuter::permute(Mesh& mesh, const IdVector<VertexId, VertexId>& new_vertex,
                            const IdVector<TriangleId, TriangleId>& new_triangle, Executor* executor) {
   const auto renumbered = [&](HalfedgeId h) {
-    return Mesh::halfedge(new_triangle[Mesh::triangle(h)], static_cast<int>(h.index % 3));
+    return h.valid() ? Mesh::halfedge(new_triangle[Mesh::triangle(h)], static_cast<int>(h.index % 3)) : h;
   };
-  mesh.twins_ = {};
   IdVector<VertexId, Mesh::VertexRecord> vertices(mesh.n_vertices());
   for_each_index(vertices.size(), executor,
                  [&](std::size_t i) { vertices[new_vertex[VertexId(i)]] = mesh.vertices_[VertexId(i)]; });
@@ -147,7 +144,10 @@ void MeshPermuter::permute(Mesh& mesh, const IdVector<VertexId, VertexId>& new_v
   for_each_index(corners.size(), executor,
                  [&](std::size_t i) { corners[renumbered(HalfedgeId(i))] = new_vertex[mesh.corners_[HalfedgeId(i)]]; });
   mesh.corners_ = std::move(corners);
-  find_twins(mesh, executor);
+  IdVector<HalfedgeId, HalfedgeId> twins(mesh.n_halfedges());
+  for_each_index(twins.size(), executor,
+                 [&](std::size_t i) { twins[renumbered(HalfedgeId(i))] = renumbered(mesh.twins_[HalfedgeId(i)]); });
+  mesh.twins_ = std::move(twins);
   if (const auto constrained = std::exchange(mesh.constrained_, {}); !constrained.all_zero()) {
     for (const HalfedgeId h : mesh.halfedges())
       mesh.constrained_.set(renumbered(h), constrained[h], mesh.n_halfedges());
