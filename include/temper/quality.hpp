@@ -24,7 +24,7 @@ namespace temper {
 class Executor;
 struct ReportTable;
 
-/// How much quality() measures. All else keeps the values that it has without a mesh.
+/// Says what quality() measures. All else keeps the values that it has without a mesh.
 enum class QualityDetail {
   all,
   brief,      ///< No energies, and no SolverMeasures but the edges and duals over the local size

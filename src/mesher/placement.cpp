@@ -300,7 +300,7 @@ class Placement {
     return std::min(size_(p), areas_.areas[static_cast<std::size_t>(area)].size);
   }
 
-  /// Says whether sizes, those of the grid too, differ by at most the grade times the distance.
+  /// Says whether sizes differ by at most the grade times the distance. The grid has such sizes, too.
   static bool is_even(const Areas& areas, const GradedSize& size) {
     constexpr double kMostGrade = 0.8;  // up to it is_near() finds all points within its radius
     return size.grade() <= kMostGrade && !size.has_field() &&

@@ -33,8 +33,8 @@ constexpr double kRelaxation = 1.7;
 // after kLastSweeps at the latest.
 constexpr double kTolerance = 1e-4;
 constexpr int kLastSweeps = 100;
-// Without repairs it also ends if so many sweeps at the last γ cure at most this part of the bad tetrahedra: the rest
-// needs another connectivity. Most sweeps would go there otherwise.
+// A run without repairs ends earlier, if so many sweeps at the last γ cure at most this part of the bad tetrahedra. The
+// others need another connectivity, and most sweeps would go there.
 constexpr std::size_t kSweepsToCure = 10;
 constexpr double kLeastCured = 0.01;
 // Moves that do not bring errors below the input's must lower them by this part.
